@@ -1,0 +1,33 @@
+#pragma once
+// What the user asks for on the command line. The one door to CLI11.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/contract.h"
+#include "propagation/plan_file.h"
+
+namespace grimaldi {
+
+enum class Verb { none, coverage, profile, scene };
+
+struct Arguments {
+  Verb verb = Verb::none;
+  std::string input;                ///< the scenario; for `scene` a file or the name of a built-in scene; may be empty
+  std::vector<PlanOption> options;  ///< direct options first, then --set, each in the order of the command line
+  std::filesystem::path output;     ///< -o; empty = the default
+  unsigned threads = 0;             ///< 0 = all processors
+  bool overwrite = false, quiet = false, json = false, progress = false;
+  std::optional<std::string> print;  ///< help or version: print this and end with `exit_code`
+  int exit_code = 0;
+};
+
+/// Reads the command line (argv[0] is the program). Direct options become keys of the scenario: --tx number N sets
+/// transmitter.N.position, so it moves the scenario's N-th transmitter or adds one; --rx likewise. A relative --scene
+/// counts from the working folder. Errors to `diagnostics`: unknown verb or option (did you mean), a verb of a later
+/// version, a value that is missing or no number, --set without "=".
+Arguments parse_arguments(int argc, const char* const* argv, Diagnostics& diagnostics);
+
+}  // namespace grimaldi

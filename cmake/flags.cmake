@@ -1,0 +1,21 @@
+# The flags of the project's own code: warnings are errors, one architecture, and no
+# contraction of a*b+c, so that a result does not depend on what the optimiser fused.
+add_library(grimaldi_flags INTERFACE)
+target_compile_options(grimaldi_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Werror
+  -march=${GRIMALDI_ARCH} -ffp-contract=off)
+target_include_directories(grimaldi_flags INTERFACE ${PROJECT_SOURCE_DIR})
+if(GRIMALDI_SANITIZE)
+  target_compile_options(grimaldi_flags INTERFACE -fsanitize=${GRIMALDI_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(grimaldi_flags INTERFACE -fsanitize=${GRIMALDI_SANITIZE})
+endif()
+
+# One static library for a folder: every source in it, alias grimaldi::NAME.
+function(grimaldi_library name)
+  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp" "${CMAKE_CURRENT_SOURCE_DIR}/*.h")
+  add_library(grimaldi_${name} STATIC ${sources})
+  add_library(grimaldi::${name} ALIAS grimaldi_${name})
+  set_target_properties(grimaldi_${name} PROPERTIES LINKER_LANGUAGE CXX)
+  target_link_libraries(grimaldi_${name} PUBLIC ${ARGN} PRIVATE grimaldi_flags)
+  target_include_directories(grimaldi_${name} PUBLIC ${PROJECT_SOURCE_DIR})
+endfunction()

@@ -1,0 +1,333 @@
+#include "propagation/discover.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/blocks.h"
+#include "core/constants.h"
+#include "core/random.h"
+#include "propagation/face_reflection.h"
+#include "propagation/launcher.h"
+
+namespace grimaldi {
+namespace {
+
+constexpr std::uint64_t block_size = 4096;
+constexpr std::uint32_t edge_stream = 2;
+/// Footprint of a beam over the spacing of the beams of its pass: more than ½ √2, so that every place is in some footprint.
+constexpr double footprint_share = 0.75;
+
+struct Beam {
+  Vec3 origin, direction;
+  std::uint32_t leave0 = no_index, leave1 = no_index;
+  double since_vertex = 0;  ///< length since the source or the last edge, m
+  double length = 0;        ///< since the transmitter, m
+  double power = 1;         ///< share of the launched flux; 0 for beams from edges, which carry none of it
+  SequenceHash hash = empty_sequence;
+  std::uint8_t depth = 0, reflections = 0, diffractions = 0;
+  std::array<Interaction, max_depth> interactions;
+};
+
+/// What one block of beams found; distinct within the block.
+struct BlockRecords {
+  SequenceTable sequences;
+  std::vector<std::uint64_t> seeds;  ///< sequence << 32 | cell
+  FluxLedger flux;
+  std::uint64_t segments = 0;
+};
+
+/// A set of 64-bit keys, emptied in constant time.
+class KeySet {
+ public:
+  KeySet() : slots_(1u << 14) {}
+  void clear() {
+    if (++era_ == 0) {
+      std::fill(slots_.begin(), slots_.end(), Slot{});
+      era_ = 1;
+    }
+    used_ = 0;
+  }
+  /// True if the key was not there.
+  bool insert(std::uint64_t key) {
+    if (2 * used_ >= slots_.size()) grow();
+    if (!place(key)) return false;
+    ++used_;
+    return true;
+  }
+
+ private:
+  struct Slot {
+    std::uint64_t key = 0;
+    std::uint32_t era = 0;
+  };
+  bool place(std::uint64_t key) {
+    const std::size_t mask = slots_.size() - 1;
+    for (std::size_t i = (key * 0x9e3779b97f4a7c15u) >> 20 & mask;; i = (i + 1) & mask) {
+      if (slots_[i].era != era_) {
+        slots_[i] = {key, era_};
+        return true;
+      }
+      if (slots_[i].key == key) return false;
+    }
+  }
+  void grow() {
+    std::vector<Slot> old(2 * slots_.size());
+    old.swap(slots_);
+    for (const Slot& slot : old)
+      if (slot.era == era_) place(slot.key);
+  }
+  std::vector<Slot> slots_;
+  std::uint32_t era_ = 1;
+  std::size_t used_ = 0;
+};
+
+/// One thread's walker: takes beams from birth to death and leaves records in a block.
+class Walker {
+ public:
+  Walker(const Scene& scene, const Tracer& tracer, const Plan& plan, const ReflectanceTable& reflectance)
+      : scene_(scene), tracer_(tracer), plan_(plan), reflectance_(reflectance), keep_all_(!plan.request.receivers.empty()) {}
+
+  void begin_block(double spacing, BlockRecords& records) {
+    spacing_ = spacing;
+    records_ = &records;
+    keys_.clear();
+  }
+
+  /// One launched beam with all that grows out of it.
+  void walk(const Vec3& origin, const Vec3& direction, std::uint64_t beam_number) {
+    beam_number_ = beam_number;
+    draws_ = 0;
+    Beam beam;
+    beam.origin = origin;
+    beam.direction = direction;
+    records_->flux.launched += 1;
+    follow(beam);
+    while (!pending_.empty()) {
+      beam = pending_.back();
+      pending_.pop_back();
+      follow(beam);
+    }
+  }
+
+ private:
+  void follow(Beam& beam) {
+    const PlanDescription& request = plan_.request;
+    for (;;) {
+      const Hit hit = tracer_.nearest(beam.origin, beam.direction, beam.leave0, beam.leave1);
+      ++records_->segments;
+      record_crossing(beam, hit);
+      if (hit.triangle == no_index) {
+        records_->flux.escaped += beam.power;
+        return;
+      }
+      const std::uint32_t patch_index = scene_.patches.triangle_patch[hit.triangle];
+      const Patch& patch = scene_.patches.patches[patch_index];
+      const Vec3 point = beam.origin + hit.distance * beam.direction;
+      const bool deep = beam.depth >= request.depth;
+      if (!deep && request.diffraction && beam.diffractions < request.max_diffractions)
+        meet_edges(beam, hit, point);
+      const double cosine = dot(patch.normal, beam.direction);
+      const double reflected = beam.power * reflectance_(patch.material, std::abs(cosine));
+      records_->flux.absorbed += beam.power - reflected;
+      if (deep || !request.reflection || beam.reflections >= request.max_reflections) {
+        records_->flux.cut_by_depth += reflected;
+        return;
+      }
+      beam.power = reflected;
+      beam.since_vertex += hit.distance;
+      beam.length += hit.distance;
+      beam.origin = point;
+      beam.direction = normalized(beam.direction - 2 * cosine * patch.normal);
+      beam.leave0 = patch_index;
+      beam.leave1 = no_index;
+      append(beam, patch_index);
+      ++beam.reflections;
+      if (keep_all_) keep(beam);
+    }
+  }
+
+  static void append(Beam& beam, Interaction interaction) {
+    beam.interactions[beam.depth++] = interaction;
+    beam.hash = extended(beam.hash, interaction);
+  }
+
+  std::uint32_t keep(const Beam& beam) {
+    return records_->sequences.enter(beam.hash, {beam.interactions.data(), beam.depth});
+  }
+
+  void record_crossing(const Beam& beam, const Hit& hit) {
+    const GridLayout& grid = plan_.grid;
+    if (grid.nx == 0 || beam.depth == 0) return;  // the direct wave asks every cell
+    const double rise = grid.z - beam.origin.z;
+    if (rise * beam.direction.z <= 0) return;
+    const double t = rise / beam.direction.z;
+    if (hit.triangle != no_index && t >= hit.distance) return;
+    const double x = (beam.origin.x + t * beam.direction.x - grid.x0) / grid.cell;
+    const double y = (beam.origin.y + t * beam.direction.y - grid.y0) / grid.cell;
+    if (!(x >= 0 && y >= 0 && x < double(grid.nx) && y < double(grid.ny))) return;
+    const std::uint64_t cell = std::uint64_t(y) * grid.nx + std::uint64_t(x);
+    if (!keys_.insert(beam.hash ^ (cell * 0xd6e8feb86659fd93u))) return;
+    records_->seeds.push_back(std::uint64_t(keep(beam)) << 32 | cell);
+  }
+
+  /// Beams leave those edges of the hit triangle that lie in the footprint.
+  void meet_edges(const Beam& beam, const Hit& hit, const Vec3& point) {
+    const Wedges& wedges = scene_.wedges;
+    const double reach = footprint_share * spacing_ * (beam.length + hit.distance);
+    for (auto i = wedges.triangle_wedge_begin[hit.triangle]; i < wedges.triangle_wedge_begin[hit.triangle + 1]; ++i) {
+      const std::uint32_t wedge_index = wedges.triangle_wedge[i];
+      const Wedge& wedge = wedges.wedges[wedge_index];
+      // The face that the beam comes from cannot send it to its own rim but along itself: that wave is a term of the edge.
+      if (beam.leave0 == wedge.patch0 || beam.leave0 == wedge.patchn) continue;
+      if (beam.depth > 0 && beam.interactions[beam.depth - 1] == edge_interaction(wedge_index)) continue;
+      const double along = std::clamp(dot(point - wedge.start, wedge.direction), 0.0, wedge.length);
+      if (norm2(point - wedge.point(along)) > reach * reach) continue;
+      leave_edge(beam, wedge_index, along, hit.distance);
+    }
+  }
+
+  void leave_edge(const Beam& beam, std::uint32_t wedge_index, double along, double hit_distance) {
+    const Wedge& wedge = scene_.wedges.wedges[wedge_index];
+    const Vec3 edge_point = wedge.point(along);
+    const Vec3 virtual_source = beam.origin - beam.since_vertex * beam.direction;
+    const Vec3 way = edge_point - virtual_source;
+    const double incident_length = norm(way);
+    if (incident_length < 1e-6) return;
+    const Vec3 incident = way / incident_length;
+    const double cos_beta = dot(incident, wedge.direction);
+    const double sin_beta = std::sqrt(std::max(0.0, 1 - cos_beta * cos_beta));
+    if (sin_beta < 1e-3) return;  // along the edge: no cone
+    double phi_in = std::atan2(-dot(incident, wedge.normal0), -dot(incident, wedge.along0));
+    if (phi_in < 0) phi_in += 2 * pi;
+    if (phi_in > wedge.exterior_angle) return;  // the wave comes through the solid
+    const double phi = draw_azimuth(wedge, phi_in, sin_beta, incident_length);
+    Beam child;
+    child.direction = normalized(cos_beta * wedge.direction +
+                                 sin_beta * (std::cos(phi) * wedge.along0 + std::sin(phi) * wedge.normal0));
+    const double half = 0.5 * wedge.exterior_angle;
+    child.origin = edge_point + 3 * tracer_.surface_gap() * (std::cos(half) * wedge.along0 + std::sin(half) * wedge.normal0);
+    child.leave0 = wedge.patch0;
+    child.leave1 = wedge.patchn;
+    child.length = beam.length + hit_distance;
+    child.power = 0;
+    child.hash = beam.hash;
+    child.depth = beam.depth;
+    child.reflections = beam.reflections;
+    child.diffractions = static_cast<std::uint8_t>(beam.diffractions + 1);
+    child.interactions = beam.interactions;
+    append(child, edge_interaction(wedge_index));
+    if (keep_all_) keep(child);
+    pending_.push_back(child);
+  }
+
+  double draw_azimuth(const Wedge& wedge, double phi_in, double sin_beta, double incident_length) {
+    const auto u = uniform4(plan_.request.seed, edge_stream, beam_number_, draws_++);
+    if (u[0] < 0.5) return u[1] * wedge.exterior_angle;
+    const double boundaries[3] = {phi_in + pi, pi - phi_in, 2 * wedge.exterior_angle - phi_in - pi};
+    const int first = std::min(2, static_cast<int>(3 * (2 * u[0] - 1)));
+    // ε at which v = 1, for a second leg as long as the first: sin(ε/2) = √(λ/8L)/sin β.
+    const double wavelength = plan_.speed / plan_.frequency.front();
+    const double scale = std::min(1.0, std::sqrt(wavelength / (4 * incident_length)) / sin_beta);
+    for (int i = 0; i < 3; ++i) {
+      const double boundary = boundaries[(first + i) % 3];
+      if (boundary <= 0 || boundary >= wedge.exterior_angle) continue;
+      const double phi = boundary + scale * std::tan(pi * (u[1] - 0.5));
+      if (phi > 0 && phi < wedge.exterior_angle) return phi;
+    }
+    return u[2] * wedge.exterior_angle;
+  }
+
+  const Scene& scene_;
+  const Tracer& tracer_;
+  const Plan& plan_;
+  const ReflectanceTable& reflectance_;
+  const bool keep_all_;
+  double spacing_ = 0;
+  BlockRecords* records_ = nullptr;
+  KeySet keys_;
+  std::vector<Beam> pending_;
+  std::uint64_t beam_number_ = 0;
+  std::uint32_t draws_ = 0;
+};
+
+/// Unites the records of one block with what there is.
+void merge(const BlockRecords& block, std::uint32_t pass_bit, Discovered& all) {
+  std::vector<std::uint32_t> number(block.sequences.size());
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    number[i] = all.sequences.enter(block.sequences.hash(i), block.sequences[i]);
+    if (number[i] >= all.found.size()) all.found.resize(number[i] + 1, 0);
+    all.found[number[i]] |= pass_bit;
+  }
+  for (const std::uint64_t seed : block.seeds)
+    all.seeds.push_back({number[seed >> 32], static_cast<std::uint32_t>(seed), pass_bit});
+  all.segments += block.segments;
+  all.flux.launched += block.flux.launched;
+  all.flux.absorbed += block.flux.absorbed;
+  all.flux.escaped += block.flux.escaped;
+  all.flux.cut_by_depth += block.flux.cut_by_depth;
+}
+
+/// Sorts the seeds and unites those of one sequence and cell.
+void unite_seeds(std::vector<Seed>& seeds) {
+  std::sort(seeds.begin(), seeds.end(), [](const Seed& a, const Seed& b) {
+    return a.sequence != b.sequence ? a.sequence < b.sequence : a.cell < b.cell;
+  });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    if (kept > 0 && seeds[kept - 1].sequence == seeds[i].sequence && seeds[kept - 1].cell == seeds[i].cell)
+      seeds[kept - 1].passes |= seeds[i].passes;
+    else
+      seeds[kept++] = seeds[i];
+  }
+  seeds.resize(kept);
+}
+
+}  // namespace
+
+Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
+                    const std::function<void(double)>& progress, const std::atomic<bool>* stop) {
+  const PlanDescription& request = plan.request;
+  Discovered all;
+  all.sequences.enter(empty_sequence, {});
+  all.found.assign(1, ~0u);
+  const bool needed = request.depth > 0 && (request.reflection || request.diffraction);
+  const auto total = static_cast<std::uint64_t>(request.rays);
+  const auto passes = static_cast<std::uint64_t>(request.passes);
+  const ReflectanceTable reflectance(plan);
+  const unsigned threads = request.threads ? request.threads : hardware_threads();
+  std::vector<Walker> walkers;
+  for (unsigned i = 0; i < threads; ++i) walkers.emplace_back(scene, tracer, plan, reflectance);
+  for (std::uint64_t pass = 0; needed && pass < passes; ++pass) {
+    if (stop && *stop) break;
+    const std::uint64_t count = (pass + 1) * total / passes - pass * total / passes;
+    if (count == 0) continue;
+    const Launcher launcher(request.seed, static_cast<std::uint32_t>(pass), count);
+    const double spacing = std::sqrt(4 * pi / double(count));
+    const std::uint64_t blocks = (count + block_size - 1) / block_size;
+    std::vector<BlockRecords> records(blocks);
+    for_each_block(
+        blocks, threads,
+        [&](std::size_t block, unsigned thread) {
+          Walker& walker = walkers[thread];
+          walker.begin_block(spacing, records[block]);
+          const std::uint64_t end = std::min(count, (block + 1) * block_size);
+          for (std::uint64_t i = block * block_size; i < end; ++i)
+            walker.walk(request.transmitters[transmitter].position, launcher.direction(i), pass << 40 | i);
+        },
+        stop);
+    for (const BlockRecords& block : records) merge(block, 1u << pass, all);
+    all.rays += count;
+    if (all.seeds.size() > 8'000'000) unite_seeds(all.seeds);
+    if (progress) progress(double(pass + 1) / double(passes));
+  }
+  const std::vector<std::uint32_t> renumbered = all.sequences.sort();
+  std::vector<std::uint32_t> found(all.found.size());
+  for (std::size_t i = 0; i < found.size(); ++i) found[renumbered[i]] = all.found[i];
+  all.found = std::move(found);
+  for (Seed& seed : all.seeds) seed.sequence = renumbered[seed.sequence];
+  unite_seeds(all.seeds);
+  return all;
+}
+
+}  // namespace grimaldi

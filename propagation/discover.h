@@ -1,0 +1,38 @@
+#pragma once
+// Launched beams find the sequences: each beam leaves records of what it met and which cells it lit on the way.
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "propagation/plan.h"
+#include "propagation/result.h"
+#include "propagation/sequence.h"
+#include "propagation/tracer.h"
+
+namespace grimaldi {
+
+/// A cell that a beam of the sequence crossed, with the passes (bits) in which that happened.
+struct Seed {
+  std::uint32_t sequence, cell, passes;
+};
+
+struct Discovered {
+  SequenceTable sequences;           ///< sorted; the empty sequence is number 0
+  std::vector<std::uint32_t> found;  ///< passes (bits) in which each sequence was found
+  std::vector<Seed> seeds;           ///< sorted by sequence, then cell; unique
+  FluxLedger flux;                   ///< of the launched beams, shares of all
+  std::uint64_t rays = 0, segments = 0;
+};
+
+/// Launches the plan's rays from transmitter `transmitter` in plan.request.passes passes. A beam reflects at every face up to the depth; where it hits within
+/// its footprint (¾ of the spacing of the pass's beams at its length) of an edge, one more beam leaves the edge's nearest point on the
+/// Keller cone, its azimuth drawn half uniformly over the exterior and half close to the shadow and reflection boundaries, and
+/// goes on in the same way. Only which sequences are found depends on these choices, never how strong they are.
+/// Every sequence met is entered if the plan has receivers, else those that lit a cell.
+/// `progress` is told the share done. Ends early when `stop` is set.
+Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
+                    const std::function<void(double)>& progress, const std::atomic<bool>* stop);
+
+}  // namespace grimaldi

@@ -1,0 +1,209 @@
+#include "propagation/evaluate.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include "core/blocks.h"
+#include "core/constants.h"
+#include "propagation/composite.h"
+#include "propagation/fermat.h"
+#include "propagation/field.h"
+
+namespace grimaldi {
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+/// Sums of one cell and band.
+struct CellSums {
+  std::array<double, mechanism_count> layers{};
+  double delay = 0, delay2 = 0, power = 0;  ///< power-weighted moments of the delay about the first arrival
+  double variance = 0;                      ///< from sub-points
+  double interference2 = 0;                 ///< Σ w interference²
+  std::array<double, 32> lone{};            ///< gain that one pass alone found
+};
+
+class CellEvaluator {
+ public:
+  CellEvaluator(const Scene& scene, const Plan& plan, std::size_t transmitter, const CoverageGrid& grid,
+                const Discovered& discovered, CoverageMap& map)
+      : scene_(scene), plan_(plan), transmitter_(transmitter), grid_(grid), discovered_(discovered), map_(map),
+        wavelength_(2 * pi / plan.wavenumber.front()), composite_(scene, plan), sums_(plan.bands()),
+        interference_(plan.bands()) {}
+
+  void evaluate(std::size_t cell, std::span<const Pair> pairs) {
+    const auto points = grid_.of(cell);
+    if (points.empty()) return;
+    std::fill(sums_.begin(), sums_.end(), CellSums{});
+    const Transmitter& transmitter = plan_.request.transmitters[transmitter_];
+    const Polarisation polarisation = plan_.request.coverage->polarisation;
+    // Delays are summed about the straight line's, so that their variance keeps its digits.
+    const double reference_delay = distance(transmitter.position, grid_.layout.centre(cell)) / plan_.speed;
+    std::vector<UnfoldedSequence>& unfolded = unfolded_;
+    unfolded.clear();
+    for (const Pair& pair : pairs) unfolded.emplace_back(scene_, transmitter.position, discovered_.sequences[pair.sequence]);
+    partial_.assign(pairs.size() * plan_.bands(), 0);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      std::size_t count = 0;
+      for (std::size_t p = 0; p < pairs.size(); ++p) {
+        if (!(pairs[p].visible >> i & 1)) continue;
+        if (arrivals_.size() <= count) arrivals_.emplace_back();
+        Arrival& arrival = arrivals_[count];
+        if (!unfolded[p].solve(points[i].position, wavelength_, arrival.geometry)) continue;
+        arrival.sequence = pairs[p].sequence;
+        arrival.hash = discovered_.sequences.hash(pairs[p].sequence);
+        arrival.interactions = discovered_.sequences[pairs[p].sequence];
+        arrival.field.resize(plan_.bands());
+        path_field(scene_, plan_, transmitter, arrival.interactions, arrival.geometry, arrival.field);
+        const auto layer = static_cast<std::size_t>(mechanism_of(arrival.interactions));
+        const double delay = arrival.geometry.length / plan_.speed - reference_delay;
+        for (std::size_t band = 0; band < plan_.bands(); ++band) {
+          const double power = points[i].weight * received_power(arrival.field[band], polarisation);
+          CellSums& sums = sums_[band];
+          sums.layers[layer] += power;
+          sums.power += power;
+          sums.delay += power * delay;
+          sums.delay2 += power * delay * delay;
+          partial_[p * plan_.bands() + band] += power;
+          if (std::has_single_bit(pairs[p].passes)) sums.lone[std::countr_zero(pairs[p].passes)] += power;
+        }
+        ++count;
+      }
+      composite_.interference({arrivals_.data(), count}, polarisation, interference_);
+      for (std::size_t band = 0; band < plan_.bands(); ++band) {
+        sums_[band].layers[static_cast<std::size_t>(Mechanism::interference)] += points[i].weight * interference_[band];
+        sums_[band].interference2 += points[i].weight * interference_[band] * interference_[band];
+      }
+    }
+    add_partial_visibility(pairs, points);
+    store(cell, points.size(), reference_delay);
+  }
+
+ private:
+  void add_partial_visibility(std::span<const Pair> pairs, std::span<const SubPoint> points) {
+    const double n = double(points.size());
+    for (std::size_t p = 0; p < pairs.size(); ++p) {
+      double seen = 0;  // share of the cell's weight that sees the path
+      int m = 0;
+      for (std::size_t i = 0; i < points.size(); ++i)
+        if (pairs[p].visible >> i & 1) seen += points[i].weight, ++m;
+      if (m == static_cast<int>(points.size())) continue;
+      const double share = (m + 0.5) / (n + 1);
+      for (std::size_t band = 0; band < plan_.bands(); ++band) {
+        const double where_seen = partial_[p * plan_.bands() + band] / seen;
+        sums_[band].variance += where_seen * where_seen * share * (1 - share) / n;
+      }
+    }
+  }
+
+  void store(std::size_t cell, std::size_t points, double reference_delay) {
+    const std::size_t cells = grid_.layout.size(), bands = plan_.bands();
+    for (std::size_t band = 0; band < bands; ++band) {
+      const CellSums& sums = sums_[band];
+      const std::size_t at = (transmitter_ * bands + band) * cells + cell;
+      double gain = 0;
+      for (std::size_t m = 0; m < mechanism_count; ++m) {
+        map_.mechanism_gain[((transmitter_ * mechanism_count + m) * bands + band) * cells + cell] = sums.layers[m];
+        gain += sums.layers[m];
+      }
+      const double passes = plan_.request.passes;
+      double lone = 0, squares = 0;
+      for (int i = 0; i < plan_.request.passes; ++i) lone += sums.lone[static_cast<std::size_t>(i)];
+      for (int i = 0; i < plan_.request.passes; ++i) {
+        const double off = sums.lone[static_cast<std::size_t>(i)] - lone / passes;
+        squares += off * off;
+      }
+      const double fringe = sums.layers[static_cast<std::size_t>(Mechanism::interference)];
+      const double fringe_variance = std::max(0.0, sums.interference2 - fringe * fringe) / double(points);
+      map_.path_gain[at] = gain;
+      map_.standard_error[at] = std::sqrt((passes - 1) / passes * squares + sums.variance + fringe_variance);
+      map_.bias[at] = (passes - 1) / passes * lone;
+      if (sums.power > 0) {
+        const double mean = sums.delay / sums.power;
+        map_.mean_delay[at] = reference_delay + mean;
+        map_.rms_delay_spread[at] = std::sqrt(std::max(0.0, sums.delay2 / sums.power - mean * mean));
+      }
+    }
+  }
+
+  const Scene& scene_;
+  const Plan& plan_;
+  const std::size_t transmitter_;
+  const CoverageGrid& grid_;
+  const Discovered& discovered_;
+  CoverageMap& map_;
+  const double wavelength_;
+  CompositeSum composite_;
+  std::vector<CellSums> sums_;
+  std::vector<double> interference_, partial_;
+  std::vector<UnfoldedSequence> unfolded_;
+  std::vector<Arrival> arrivals_;
+};
+
+}  // namespace
+
+CoverageMap empty_map(const Plan& plan, const CoverageGrid& grid) {
+  const std::size_t cells = grid.layout.size(), transmitters = plan.request.transmitters.size(), bands = plan.bands();
+  CoverageMap map;
+  map.inside_fraction = grid.inside_fraction;
+  const auto filled = [&](std::size_t repeats, double outdoors) {
+    std::vector<double> values(repeats * cells, outdoors);
+    for (std::size_t r = 0; r < repeats; ++r)
+      for (std::size_t c = 0; c < cells; ++c)
+        if (grid.of(c).empty()) values[r * cells + c] = not_a_number;
+    return values;
+  };
+  map.path_gain = filled(transmitters * bands, 0);
+  map.standard_error = map.path_gain;
+  map.bias = map.path_gain;
+  map.mechanism_gain = filled(transmitters * mechanism_count * bands, 0);
+  map.mean_delay = filled(transmitters * bands, not_a_number);
+  map.rms_delay_spread = map.mean_delay;
+  map.detection_limit = filled(transmitters, 0);
+  return map;
+}
+
+void evaluate(const Scene& scene, const Plan& plan, std::size_t transmitter, const CoverageGrid& grid,
+              const Discovered& discovered, const std::vector<Pair>& pairs, CoverageMap& map,
+              const std::function<void(double)>& progress, const std::atomic<bool>* stop) {
+  const std::size_t cells = grid.layout.size();
+  const unsigned threads = plan.request.threads ? plan.request.threads : hardware_threads();
+  std::vector<std::size_t> begins(cells + 1, 0);
+  for (const Pair& pair : pairs) ++begins[pair.cell + 1];
+  for (std::size_t c = 0; c < cells; ++c) begins[c + 1] += begins[c];
+  std::vector<CellEvaluator> evaluators;
+  for (unsigned i = 0; i < threads; ++i) evaluators.emplace_back(scene, plan, transmitter, grid, discovered, map);
+  constexpr std::size_t tile = 64;
+  const std::size_t tiles = (cells + tile - 1) / tile;
+  std::atomic<std::size_t> done = 0;
+  std::mutex reporting;
+  for_each_block(
+      tiles, threads,
+      [&](std::size_t block, unsigned thread) {
+        for (std::size_t cell = block * tile; cell < std::min(cells, (block + 1) * tile); ++cell)
+          evaluators[thread].evaluate(cell, {pairs.data() + begins[cell], pairs.data() + begins[cell + 1]});
+        const std::size_t now = ++done;
+        if (progress && now % 64 == 0) {
+          const std::lock_guard lock(reporting);
+          progress(double(now) / double(tiles));
+        }
+      },
+      stop);
+  // Detection limit: geometry and the number of rays alone.
+  const Vec3 source = plan.request.transmitters[transmitter].position;
+  const double wavelength = 2 * pi / plan.wavenumber.front();
+  const double unit = plan.request.kind == WaveKind::radio ? std::pow(wavelength / (4 * pi), 2) : 1 / (4 * pi);
+  for (std::size_t cell = 0; cell < cells; ++cell) {
+    if (grid.of(cell).empty()) continue;
+    const Vec3 way = grid.layout.centre(cell) - source;
+    const double cosine = std::max(std::abs(way.z) / norm(way), 1e-3);
+    map.detection_limit[transmitter * cells + cell] =
+        3 * unit * 4 * pi / (plan.request.rays * grid.layout.cell * grid.layout.cell * cosine);
+  }
+}
+
+}  // namespace grimaldi

@@ -1,0 +1,74 @@
+#pragma once
+// The points of a sequence between two ends: images for faces, the minimum of the path length (which is convex) for edges.
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/vector.h"
+#include "propagation/sequence.h"
+#include "scenes/scene.h"
+
+namespace grimaldi {
+
+/// Edges along one path at the most.
+inline constexpr std::size_t max_edges = 8;
+
+/// How a path passes one edge, in lengths and angles that mirrors do not change.
+struct EdgePassage {
+  std::uint32_t wedge = no_index;
+  double along = 0;           ///< of the diffraction point from the wedge's start, m; may lie beyond its ends
+  double s_in = 0, s_out = 0; ///< distances to the source or edge before and to the edge or receiver after, m
+  double sin_beta = 1;        ///< of the angle between ray and edge
+  double phi_in = 0, phi_out = 0;        ///< φ', φ: azimuths of where the wave comes from and goes to, rad, 0 … exterior angle
+  double detour_start = 0, detour_end = 0; ///< of the paths over the ends of the edge, m
+  bool inside = true;         ///< the diffraction point lies on the edge
+};
+
+/// A path found: points[0] = source, points[count−1] = receiver, between them one point per interaction.
+struct PathGeometry {
+  std::array<Vec3, max_depth + 2> points;
+  std::size_t count = 0;
+  double length = 0;  ///< of the whole path through the diffraction points, m
+  std::array<EdgePassage, max_edges> edges;
+  std::size_t edge_count = 0;
+};
+
+/// One sequence from one source, unfolded: what comes before a face is mirrored in it, so that the path to any receiver is
+/// a straight line, or one that breaks at edges only.
+class UnfoldedSequence {
+ public:
+  UnfoldedSequence(const Scene& scene, const Vec3& source, std::span<const Interaction> interactions);
+
+  /// False for a sequence that no path can have: an edge next to a face of its own, one interaction twice in a row, too many edges.
+  bool possible() const { return possible_; }
+
+  /// Points, lengths and angles of the path to `receiver`. False if there is none: a mirror's point lies behind it or outside its bounding
+  /// box, an azimuth inside the solid, a diffraction point so far beyond the edge's end that v_V ≥ 3 there at `wavelength` (m), or two
+  /// vertices of the path nearer than 1 µm. Visibility is not asked here.
+  /// Method: one edge in closed form (the two half-planes through the edge unfolded); more by Newton on the length, which is convex, until the step is below 1e-12 of the length.
+  bool solve(const Vec3& receiver, double wavelength, PathGeometry& geometry) const;
+
+ private:
+  struct UnfoldedEdge {
+    std::uint32_t wedge;
+    std::size_t position;  ///< in the sequence
+    Vec3 start, direction, along0, normal0;
+    Vec3 point(double t) const { return start + t * direction; }
+  };
+  bool fermat_points(const Vec3& receiver, std::array<double, max_edges>& along) const;
+  bool passage(std::size_t i, const Vec3& before, double along, const Vec3& after, EdgePassage& out) const;
+  bool mirror_points(std::size_t first, std::size_t last, PathGeometry& geometry) const;
+
+  const Scene* scene_;
+  std::span<const Interaction> interactions_;
+  Vec3 source_, image_;
+  std::array<UnfoldedEdge, max_edges> edges_;
+  std::size_t edge_count_ = 0;
+  bool possible_ = true;
+};
+
+/// `point` mirrored in the plane of `patch`.
+Vec3 mirrored(const Vec3& point, const Patch& patch);
+
+}  // namespace grimaldi

@@ -1,0 +1,189 @@
+#include "propagation/grow.h"
+
+#include <algorithm>
+#include <array>
+#include <complex>
+
+#include "core/blocks.h"
+#include "core/constants.h"
+#include "propagation/composite.h"
+#include "propagation/connect.h"
+#include "propagation/fermat.h"
+#include "propagation/field.h"
+
+namespace grimaldi {
+namespace {
+
+/// What one thread keeps from sequence to sequence.
+struct Workspace {
+  std::vector<std::uint32_t> visited;  ///< per cell: number of the growth that visited it last
+  std::uint32_t growth = 0;
+  std::vector<std::uint32_t> frontier;
+  PathGeometry geometry;
+  std::vector<std::array<std::complex<double>, 2>> field;
+};
+
+struct BlockPairs {
+  std::vector<Pair> pairs;
+  std::uint64_t shadow_rays = 0;
+};
+
+class Grower {
+ public:
+  Grower(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter, const CoverageGrid& grid,
+         const Discovered& discovered, const std::vector<double>& known)
+      : scene_(scene), tracer_(tracer), plan_(plan), transmitter_(plan.request.transmitters[transmitter]), grid_(grid),
+        discovered_(discovered), known_(known), wavelength_(2 * pi / plan.wavenumber.front()) {}
+
+  /// One sequence from its seeds [first, last).
+  void grow(std::uint32_t sequence, const Seed* first, const Seed* last, Workspace& work, BlockPairs& out) const {
+    const auto interactions = discovered_.sequences[sequence];
+    const UnfoldedSequence unfolded(scene_, transmitter_.position, interactions);
+    if (!unfolded.possible()) return;
+    if (work.visited.empty()) work.visited.assign(grid_.layout.size(), 0);
+    const bool may_be_negligible = interactions.size() >= 2 && count_edges(interactions) > 0;
+    ++work.growth;
+    for (const Seed* seed = first; seed != last; ++seed) {
+      if (work.visited[seed->cell] == work.growth) continue;
+      const std::size_t begin = out.pairs.size();
+      std::uint32_t passes = 0;
+      work.frontier.assign(1, seed->cell);
+      work.visited[seed->cell] = work.growth;
+      while (!work.frontier.empty()) {
+        const std::uint32_t cell = work.frontier.back();
+        work.frontier.pop_back();
+        Pair pair{cell, sequence, 0, 0, 0};
+        const bool arrives = arrive(unfolded, interactions, may_be_negligible, work, pair, out.shadow_rays);
+        const Seed* here = std::lower_bound(seed, last, cell, [](const Seed& s, std::uint32_t c) { return s.cell < c; });
+        // A seed at whose cell nothing arrives (a sliver between the sub-points) still lets its neighbours be asked.
+        const bool is_seed = here != last && here->cell == cell;
+        if (!arrives && !is_seed) continue;
+        if (arrives) out.pairs.push_back(pair);
+        if (is_seed) passes |= here->passes;
+        ask_neighbours(cell, work);
+      }
+      for (std::size_t i = begin; i < out.pairs.size(); ++i) out.pairs[i].passes = passes;
+    }
+  }
+
+  /// The direct wave in one cell.
+  void direct(std::uint32_t cell, Workspace& work, BlockPairs& out) const {
+    const UnfoldedSequence unfolded(scene_, transmitter_.position, {});
+    Pair pair{cell, 0, 0, ~0u, 0};
+    if (arrive(unfolded, {}, false, work, pair, out.shadow_rays)) out.pairs.push_back(pair);
+  }
+
+ private:
+  bool arrive(const UnfoldedSequence& unfolded, std::span<const Interaction> interactions, bool may_be_negligible,
+              Workspace& work, Pair& pair, std::uint64_t& shadow_rays) const {
+    const auto points = grid_.of(pair.cell);
+    work.field.resize(plan_.bands());
+    double power = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!unfolded.solve(points[i].position, wavelength_, work.geometry)) continue;
+      // The cheaper question first: rays for what cannot be negligible, the field for what can.
+      if (!may_be_negligible && !connected(scene_, tracer_, interactions, work.geometry, shadow_rays)) continue;
+      path_field(scene_, plan_, transmitter_, interactions, work.geometry, work.field);
+      const double here = received_power(work.field[0], Polarisation::both);
+      if (may_be_negligible && (here < negligible_share * known_[pair.cell] ||
+                                !connected(scene_, tracer_, interactions, work.geometry, shadow_rays)))
+        continue;
+      pair.visible |= std::uint64_t(1) << i;
+      power += points[i].weight * here;
+    }
+    pair.power = static_cast<float>(power);
+    return pair.visible != 0;
+  }
+
+  void ask_neighbours(std::uint32_t cell, Workspace& work) const {
+    const std::size_t nx = grid_.layout.nx, ny = grid_.layout.ny;
+    const std::size_t x = cell % nx, y = cell / nx;
+    for (std::size_t j = y > 0 ? y - 1 : y; j <= std::min(y + 1, ny - 1); ++j)
+      for (std::size_t i = x > 0 ? x - 1 : x; i <= std::min(x + 1, nx - 1); ++i) {
+        const auto neighbour = static_cast<std::uint32_t>(j * nx + i);
+        if (work.visited[neighbour] == work.growth) continue;
+        work.visited[neighbour] = work.growth;
+        work.frontier.push_back(neighbour);
+      }
+  }
+
+  const Scene& scene_;
+  const Tracer& tracer_;
+  const Plan& plan_;
+  const Transmitter& transmitter_;
+  const CoverageGrid& grid_;
+  const Discovered& discovered_;
+  const std::vector<double>& known_;
+  const double wavelength_;
+};
+
+/// Runs work(block, workspace, pairs) over blocks and appends what they found in the order of the blocks.
+template <typename Work>
+void in_blocks(std::size_t blocks, unsigned threads, std::vector<Workspace>& spaces, const std::atomic<bool>* stop,
+               Grown& grown, const Work& work) {
+  std::vector<BlockPairs> found(blocks);
+  for_each_block(
+      blocks, threads, [&](std::size_t block, unsigned thread) { work(block, spaces[thread], found[block]); }, stop);
+  for (const BlockPairs& block : found) {
+    grown.pairs.insert(grown.pairs.end(), block.pairs.begin(), block.pairs.end());
+    grown.shadow_rays += block.shadow_rays;
+  }
+}
+
+}  // namespace
+
+Grown grow(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter, const CoverageGrid& grid,
+           const Discovered& discovered, const std::function<void(double)>& progress, const std::atomic<bool>* stop) {
+  const unsigned threads = plan.request.threads ? plan.request.threads : hardware_threads();
+  std::vector<double> known(grid.layout.size(), 0);  // mean power per cell so far, first band
+  const Grower grower(scene, tracer, plan, transmitter, grid, discovered, known);
+  std::vector<Workspace> spaces(threads);
+  Grown grown;
+  const auto learn = [&](std::size_t from) {
+    for (std::size_t i = from; i < grown.pairs.size(); ++i) known[grown.pairs[i].cell] += grown.pairs[i].power;
+  };
+  constexpr std::size_t cells_per_block = 1024;
+  if (plan.request.direct) {
+    const std::size_t cells = grid.layout.size();
+    in_blocks((cells + cells_per_block - 1) / cells_per_block, threads, spaces, stop, grown,
+              [&](std::size_t block, Workspace& work, BlockPairs& out) {
+                const std::size_t end = std::min(cells, (block + 1) * cells_per_block);
+                for (std::size_t cell = block * cells_per_block; cell < end; ++cell)
+                  grower.direct(static_cast<std::uint32_t>(cell), work, out);
+              });
+    learn(0);
+  }
+  const std::vector<Seed>& seeds = discovered.seeds;
+  for (std::size_t begin = 0, end = 0; begin < seeds.size() && !(stop && *stop); begin = end) {
+    // One stage: sequences of as many edges and interactions. `starts` holds the first seed of each.
+    const auto stage_of = [&](std::uint32_t sequence) {
+      const auto interactions = discovered.sequences[sequence];
+      return std::pair(count_edges(interactions), interactions.size());
+    };
+    const auto stage = stage_of(seeds[begin].sequence);
+    std::vector<std::size_t> starts;
+    for (end = begin; end < seeds.size(); ++end) {
+      if (end == begin || seeds[end].sequence != seeds[end - 1].sequence) {
+        if (end > begin && stage_of(seeds[end].sequence) != stage) break;
+        starts.push_back(end);
+      }
+    }
+    starts.push_back(end);
+    const std::size_t sequences = starts.size() - 1, before = grown.pairs.size();
+    constexpr std::size_t sequences_per_block = 16;
+    in_blocks((sequences + sequences_per_block - 1) / sequences_per_block, threads, spaces, stop, grown,
+              [&](std::size_t block, Workspace& work, BlockPairs& out) {
+                const std::size_t last = std::min(sequences, (block + 1) * sequences_per_block);
+                for (std::size_t i = block * sequences_per_block; i < last; ++i)
+                  grower.grow(seeds[starts[i]].sequence, seeds.data() + starts[i], seeds.data() + starts[i + 1], work, out);
+              });
+    learn(before);
+    if (progress) progress(double(end) / double(seeds.size()));
+  }
+  std::sort(grown.pairs.begin(), grown.pairs.end(), [](const Pair& a, const Pair& b) {
+    return a.cell != b.cell ? a.cell < b.cell : a.sequence < b.sequence;
+  });
+  return grown;
+}
+
+}  // namespace grimaldi

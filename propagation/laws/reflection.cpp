@@ -1,0 +1,53 @@
+#include "propagation/laws/reflection.h"
+
+#include <cmath>
+
+#include "core/contract.h"
+
+namespace grimaldi {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// √(η − sin²θ) on the sheet of decaying waves (negative imaginary part).
+Complex refracted_cosine(Complex permittivity, double cos_incidence) {
+  const Complex root = std::sqrt(permittivity - (1.0 - cos_incidence * cos_incidence));
+  return root.imag() > 0 ? -root : root;
+}
+
+ReflectionCoefficients interface_reflection(Complex permittivity, double cos_incidence, Complex root) {
+  return {(cos_incidence - root) / (cos_incidence + root),
+          (permittivity * cos_incidence - root) / (permittivity * cos_incidence + root)};
+}
+
+}  // namespace
+
+ReflectionCoefficients half_space_reflection(Complex permittivity, double cos_incidence) {
+  GRIMALDI_EXPECT(cos_incidence >= 0 && cos_incidence <= 1);
+  // At exactly grazing incidence both numerators and denominators are the root alone.
+  if (cos_incidence == 0) return {-1.0, -1.0};
+  return interface_reflection(permittivity, cos_incidence, refracted_cosine(permittivity, cos_incidence));
+}
+
+ReflectionCoefficients slab_reflection(Complex permittivity, double thickness, double wavenumber, double cos_incidence) {
+  GRIMALDI_EXPECT(thickness >= 0 && wavenumber > 0);
+  if (cos_incidence == 0) return {-1.0, -1.0};
+  if (std::isinf(thickness)) return half_space_reflection(permittivity, cos_incidence);
+  const Complex root = refracted_cosine(permittivity, cos_incidence);
+  const ReflectionCoefficients face = interface_reflection(permittivity, cos_incidence, root);
+  // e^{−j2q} = e^{a}(cos b + j sin b) with a ≤ 0; 1 − e^{−j2q} = −expm1(a) + e^a(2 sin²(b/2) − j sin b).
+  const Complex exponent = Complex(0, -2) * (wavenumber * thickness * root);
+  const double decay = std::exp(exponent.real());
+  const double half_sine = std::sin(exponent.imag() / 2);
+  const Complex one_minus(-std::expm1(exponent.real()) + 2 * decay * half_sine * half_sine,
+                          -decay * std::sin(exponent.imag()));
+  const auto slab = [&](Complex r) { return r * one_minus / ((1.0 - r) * (1.0 + r) + r * r * one_minus); };
+  return {slab(face.te), slab(face.tm)};
+}
+
+double wall_reflection(double absorption) {
+  GRIMALDI_EXPECT(absorption >= 0 && absorption <= 1);
+  return std::sqrt(1 - absorption);
+}
+
+}  // namespace grimaldi
