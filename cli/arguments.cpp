@@ -37,11 +37,11 @@ struct DirectOption {
 
 constexpr DirectOption wave_options[] = {
     {"--wave", "wave.kind", "KIND", "radio (default) or acoustic"},
-    {"--frequency", "wave.frequency", "F[,F…]", "carriers or bands, e.g. 3.5GHz"},
+    {"--frequency", "wave.frequency", "F[,F...]", "carriers or bands, e.g. 3.5GHz"},
     {"--rays", "budget.rays", "N", "rays per transmitter, over all passes (default 1e6)"},
     {"--depth", "propagation.depth", "N", "most interactions along a path (default 3)"},
     {"--diffraction", "propagation.diffraction", "MODEL", "fsd (default) or fsd-published"},
-    {"--mechanisms", "propagation.mechanisms", "M[,M…]", "of direct, reflection, diffraction (default: all)"},
+    {"--mechanisms", "propagation.mechanisms", "M[,M...]", "of direct, reflection, diffraction (default: all)"},
     {"--seed", "budget.seed", "N", "seed of every random choice (default 1)"},
 };
 constexpr DirectOption map_options[] = {
@@ -70,6 +70,7 @@ void add_texts(CLI::App& app, const std::string& flags, std::vector<std::string>
   app.add_option(flags, target, help)
       ->type_name(metavar)
       ->expected(1)
+      ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
@@ -97,9 +98,7 @@ void add_run_options(CLI::App& app, RunOptions& run, Arguments& arguments, bool 
 }
 
 // "a,b,c" as the list "[a,b,c]"; what is a list already stays.
-std::string as_list(const std::string& text) {
-  return !text.empty() && text.front() == '[' ? text : "[" + text + "]";
-}
+std::string as_list(const std::string& text) { return !text.empty() && text.front() == '[' ? text : "[" + text + "]"; }
 
 bool is_list_option(const std::string& key, const std::string& value) {
   if (key == "coverage.area") return true;

@@ -96,6 +96,7 @@ int run_verb(const Arguments& arguments, Clock::time_point start) {
   }
 
   interruption.begin_run();
+  if (progress) progress->show("discover", 0);  // the first stage; its first report comes when a part of it is done
   folder.create();
   Result result;
   try {

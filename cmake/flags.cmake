@@ -3,6 +3,7 @@
 add_library(grimaldi_flags INTERFACE)
 target_compile_options(grimaldi_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Werror
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> # g++ 12 warns of std::string's own code (GCC bug 105651)
   -march=${GRIMALDI_ARCH} -ffp-contract=off)
 target_include_directories(grimaldi_flags INTERFACE ${PROJECT_SOURCE_DIR})
 if(GRIMALDI_SANITIZE)

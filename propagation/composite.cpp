@@ -60,12 +60,9 @@ void CompositeSum::gather_members(std::span<const Arrival> arrivals) {
       const Wedge& wedge = scene_->wedges.wedges[arrival.geometry.edges[e].wedge];
       const std::pair<Boundary, std::uint32_t> bounded[3] = {
           {Boundary::incident, no_index}, {Boundary::face0, wedge.patch0}, {Boundary::facen, wedge.patchn}};
-      const std::size_t kinds = !plan_->request.reflection ? 1 : wedge.patch0 == wedge.patchn ? 2 : 3;
+      const std::size_t kinds = !plan_->request.reflection ? 1 : wedge.free_rim ? 2 : 3;
       for (std::size_t kind = 0; kind < kinds; ++kind) {
-        double v = boundary_parameter(*scene_, arrival.geometry, e, bounded[kind].first, longest);
-        // Both sides of a thin screen are one patch: its two boundaries bound the same reflected wave.
-        if (kind == 1 && kinds == 2)
-          v = std::min(v, boundary_parameter(*scene_, arrival.geometry, e, Boundary::facen, longest));
+        const double v = boundary_parameter(*scene_, arrival.geometry, e, bounded[kind].first, longest);
         if (v >= no_coherence) continue;
         members_.push_back({without_edge(arrival.interactions, position, bounded[kind].second), a,
                             static_cast<std::uint32_t>(weights_.size())});

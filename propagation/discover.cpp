@@ -17,6 +17,8 @@ constexpr std::uint64_t block_size = 4096;
 constexpr std::uint32_t edge_stream = 2;
 /// Footprint of a beam over the spacing of the beams of its pass: more than ½ √2, so that every place is in some footprint.
 constexpr double footprint_share = 0.75;
+/// Beams that leave an edge for one that met it: the exterior of an edge is a whole fan of directions.
+constexpr int beams_per_edge = 16;
 
 struct Beam {
   Vec3 origin, direction;
@@ -201,10 +203,7 @@ class Walker {
     double phi_in = std::atan2(-dot(incident, wedge.normal0), -dot(incident, wedge.along0));
     if (phi_in < 0) phi_in += 2 * pi;
     if (phi_in > wedge.exterior_angle) return;  // the wave comes through the solid
-    const double phi = draw_azimuth(wedge, phi_in, sin_beta, incident_length);
     Beam child;
-    child.direction = normalized(cos_beta * wedge.direction +
-                                 sin_beta * (std::cos(phi) * wedge.along0 + std::sin(phi) * wedge.normal0));
     const double half = 0.5 * wedge.exterior_angle;
     child.origin = edge_point + 3 * tracer_.surface_gap() * (std::cos(half) * wedge.along0 + std::sin(half) * wedge.normal0);
     child.leave0 = wedge.patch0;
@@ -218,7 +217,12 @@ class Walker {
     child.interactions = beam.interactions;
     append(child, edge_interaction(wedge_index));
     if (keep_all_) keep(child);
-    pending_.push_back(child);
+    for (int i = 0; i < beams_per_edge; ++i) {
+      const double phi = draw_azimuth(wedge, phi_in, sin_beta, incident_length);
+      child.direction = normalized(cos_beta * wedge.direction +
+                                   sin_beta * (std::cos(phi) * wedge.along0 + std::sin(phi) * wedge.normal0));
+      pending_.push_back(child);
+    }
   }
 
   double draw_azimuth(const Wedge& wedge, double phi_in, double sin_beta, double incident_length) {

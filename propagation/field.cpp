@@ -20,7 +20,6 @@ ComplexVec3 combine(Complex a, const Vec3& u, Complex b, const Vec3& v) {
   return {a * u.x + b * v.x, a * u.y + b * v.y, a * u.z + b * v.z};
 }
 Complex dot(const ComplexVec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-ComplexVec3 operator+(const ComplexVec3& a, const ComplexVec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 ComplexVec3 operator*(Complex s, const ComplexVec3& a) { return {s * a.x, s * a.y, s * a.z}; }
 
 /// ε beyond a boundary: > 0 on its dark side, capped at π.
@@ -28,7 +27,8 @@ double beyond_boundary(const Wedge& wedge, const EdgePassage& passage, Boundary 
   const double sum = passage.phi_in + passage.phi_out;
   switch (boundary) {
     case Boundary::incident: return std::min(std::abs(passage.phi_in - passage.phi_out) - pi, pi);
-    case Boundary::face0: return std::min(sum - pi, pi);
+    // The two sides of a thin screen are one mirror: its image wave has one edge term, not two (Sommerfeld).
+    case Boundary::face0: return std::min(wedge.free_rim ? std::min(sum, 4 * pi - sum) - pi : sum - pi, pi);
     case Boundary::facen: return std::min(2 * wedge.exterior_angle - sum - pi, pi);
   }
   return pi;
@@ -150,14 +150,15 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
             phi += u * dot(image, frame.phi);
           };
           add_image(Boundary::face0, wedge.normal0, wedge.material0, passage.phi_in, passage.phi_out);
-          add_image(Boundary::facen, normaln, wedge.materialn, n - passage.phi_in, n - passage.phi_out);
+          if (!wedge.free_rim)
+            add_image(Boundary::facen, normaln, wedge.materialn, n - passage.phi_in, n - passage.phi_out);
         }
         e = weight * combine(beta, out.beta, phi, out.phi);
       } else {
         Complex sum = incident;
         if (faces) {
           sum += face_reflection(plan, wedge.material0, band, 1).te * term(Boundary::face0);
-          sum += face_reflection(plan, wedge.materialn, band, 1).te * term(Boundary::facen);
+          if (!wedge.free_rim) sum += face_reflection(plan, wedge.materialn, band, 1).te * term(Boundary::facen);
         }
         pressure *= weight * sum;
       }

@@ -178,8 +178,8 @@ void read_budget_section(ScenarioReader& reader, const ScenarioNode& root, PlanD
   if (const ScenarioNode* seed = section->find("seed"))
     if (const auto value = reader.integer(*seed, 0, std::numeric_limits<std::int64_t>::max()))
       plan.seed = static_cast<std::uint64_t>(*value);
-  // Two passes are the fewest that tell an error; the mask of the passes that found a path has 64 places.
-  reader.read(*section, "passes", 2, 64, plan.passes);
+  // Two passes are the fewest that tell an error; the mask of the passes that found a path has 32 places.
+  reader.read(*section, "passes", 2, 32, plan.passes);
 }
 
 PlanDescription read_plan(const fs::path& file, const std::vector<PlanOption>& options, Diagnostics& diagnostics) {

@@ -24,8 +24,8 @@ struct MaterialDescription {
 
 struct MeshDescription {
   std::string name;
-  std::string file;  ///< where it came from, for messages
-  std::string material;  ///< key of the material; empty: the file names none
+  std::string file;                                     ///< where it came from, for messages
+  std::string material;                                 ///< key of the material; empty: the file names none
   std::vector<Vec3> vertices;                           ///< local east-north-up metres
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into vertices, in the file's winding
   /// Index pairs of edges that do not diffract (the cut ends of a canonical shape that stands for an infinite one).

@@ -226,20 +226,54 @@ void check_accessors(const json& root) {
   }
 }
 
+// Entries of all accessors that a set of attributes names; each must have as many as the vertices, if there are any.
+std::uint64_t attribute_values(const json& accessors, const json& attributes, std::optional<std::uint64_t> vertices) {
+  if (!attributes.is_object()) throw Fault{"attributes that are not an object", {}, {}};
+  std::uint64_t values = 0;
+  for (const auto& [name, ignored] : attributes.items()) {
+    const std::uint64_t count = whole(entry(accessors, whole(attributes, name.c_str()), "accessor"), "count");
+    if (count != vertices.value_or(count)) {
+      throw Fault{"an attribute " + name.substr(0, 40) + " of another length than the vertices",
+                  std::to_string(count) + " instead of " + std::to_string(*vertices), "export the file again"};
+    }
+    values += count;
+  }
+  return values;
+}
+
+std::uint64_t primitive_values(const json& accessors, const json& primitive) {
+  const auto attributes = primitive.find("attributes");
+  if (attributes == primitive.end() || !attributes->is_object()) throw Fault{"a primitive without attributes", {}, {}};
+  std::optional<std::uint64_t> vertices;
+  if (attributes->contains("POSITION")) {
+    const json& position = entry(accessors, whole(*attributes, "POSITION"), "accessor");
+    if (whole(position, "componentType") != 5126 || components(position) != 3) {
+      throw Fault{"positions that are not three floats", {}, "export it without quantisation"};
+    }
+    vertices = whole(position, "count");
+  }
+  std::uint64_t values = attribute_values(accessors, *attributes, vertices);
+  for (const json& target : objects(primitive, "targets")) values += attribute_values(accessors, target, vertices);
+  if (primitive.contains("indices")) {
+    const json& list = entry(accessors, whole(primitive, "indices"), "accessor");
+    const std::uint64_t type = whole(list, "componentType");
+    if (components(list) != 1 || (type != 5121 && type != 5123 && type != 5125)) {
+      throw Fault{"indices that are not unsigned whole numbers", {}, "export the file again"};
+    }
+    values += whole(list, "count");
+  }
+  return values;
+}
+
 void check_meshes(const json& root) {
   const json& accessors = objects(root, "accessors");
+  // assimp trusts the bones of a skin, and a mesh that bends has no one shape.
+  if (!objects(root, "skins").empty())
+    throw Fault{"skinned meshes", "they are not read", "apply the armature before export"};
   std::uint64_t values = 0;
   for (const json& mesh : objects(root, "meshes")) {
     for (const json& primitive : objects(mesh, "primitives")) {
-      const auto attributes = primitive.find("attributes");
-      if (attributes != primitive.end() && attributes->is_object()) {
-        for (const auto& [name, ignored] : attributes->items()) {
-          values += whole(entry(accessors, whole(*attributes, name.c_str()), "accessor"), "count");
-        }
-      }
-      if (primitive.contains("indices")) {
-        values += whole(entry(accessors, whole(primitive, "indices"), "accessor"), "count");
-      }
+      values += primitive_values(accessors, primitive);
       if (values > most_values) {
         throw Fault{"too many vertices and indices",
                     "more than " + std::to_string(most_values) + " in all primitives together",

@@ -18,6 +18,7 @@
 #include "scenes/affine.h"
 #include "scenes/file_contents.h"
 #include "scenes/gltf_check.h"
+#include "scenes/obj_text.h"
 
 namespace grimaldi {
 namespace {
@@ -191,10 +192,10 @@ std::vector<MeshDescription> read_with_assimp(const std::filesystem::path& file,
     importer.SetIOHandler(new DecodingFiles);  // the importer owns it
     const aiScene* scene = nullptr;
     if (ending == ".obj") {
-      std::optional<std::string> text = read_file_contents(file, diagnostics);
+      const std::optional<std::string> contents = read_file_contents(file, diagnostics);
+      if (!contents) return {};
+      const auto text = plain_obj(*contents, AI_DEFAULT_MATERIAL_NAME, file.string(), diagnostics);
       if (!text) return {};
-      // assimp gives faces before the first usemtl the material of the next one, unless they have one.
-      text->insert(0, "usemtl " AI_DEFAULT_MATERIAL_NAME "\n");
       scene = importer.ReadFileFromMemory(text->data(), text->size(), aiProcess_Triangulate, "obj");
     } else {
       scene = importer.ReadFile(file.string(), aiProcess_Triangulate);

@@ -29,7 +29,7 @@ struct Scene {
   Vec3 low, high;        ///< extent
   double ground = 0;     ///< height of the lowest surface, m (0 for a scene without triangles)
   std::uint64_t fingerprint = 0;  ///< FNV-1a over vertices, triangles, materials: tells scenes apart
-  /// True if the triangle is ground (a patch in the lowest plane z = ground within 1 cm, normal vertical): not part of a solid.
+  /// True if the triangle is ground (in the lowest plane z = ground within 1 cm, looking straight up, unlike the floor of a solid): not part of a solid.
   std::vector<std::uint8_t> triangle_is_ground;
 };
 

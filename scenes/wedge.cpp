@@ -36,7 +36,7 @@ class WedgeSearch {
     EdgeSection section(surroundings_, table_, edge);
     if (edge.valence() == 1) {
       const auto stretches = find_stretches(section, patches_);
-      count_rim(stretches);
+      count_rim(section);
       keep(edge, section, stretches);
       return;
     }
@@ -70,10 +70,12 @@ class WedgeSearch {
  private:
   static bool is_rim(const Sector& s) { return s.triangle0 == s.trianglen && s.angle() > 2 * pi - same_angle; }
 
-  void count_rim(const std::vector<Stretch>& stretches) {
+  /// What of the edge lies on no other surface, whether or not it is inside a solid.
+  void count_rim(const EdgeSection& section) {
     double length = 0;
-    for (const Stretch& stretch : stretches) {
-      if (stretch.sectors.size() == 1 && is_rim(stretch.sectors[0])) length += stretch.to - stretch.from;
+    const auto& breaks = section.breaks();
+    for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+      if (!section.has_others(0.5 * (breaks[i] + breaks[i + 1]))) length += breaks[i + 1] - breaks[i];
     }
     if (length > 0) add(report_.free_rims, length);
   }

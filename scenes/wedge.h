@@ -39,7 +39,7 @@ struct EdgeTally {
 struct WedgeReport {
   EdgeTally within_material;   ///< edges of exactly two triangles, exterior angle above 185°, one material; as full wedges
   EdgeTally across_materials;  ///< the same between two materials
-  EdgeTally free_rims;         ///< edges of one triangle that lie on no other face
+  EdgeTally free_rims;         ///< edges of one triangle that lie on no other face and do not end the ground
   EdgeTally concave;           ///< edges of exactly two triangles, exterior angle below 175°
   EdgeTally higher;            ///< edges of three and more triangles
   EdgeTally filled;            ///< length of the above wedges whose exterior is partly filled by another solid
@@ -56,11 +56,16 @@ struct Wedges {
 /// Finds them. Method: own sorted edge table over the welded vertices, any valence.
 /// * two triangles, coplanar (|exterior − 180°| ≤ 5°): no wedge; exterior < 175°: concave, counted; > 185°: wedge.
 /// * three and more triangles: half-faces sorted around the edge by angle; sectors between neighbours that are exterior on both sides (by the
-///   faces' outward normals) are wedges of that sector if above 185°.
-/// * one triangle: a free rim (half-plane, exterior 2π) unless it lies on another face (T-junction, the foot of a wall on the ground) within 1 cm for that part of its length, or is artificial.
+///   faces' outward normals) are wedges of that sector if above 185°. Of sheets, which have no inside, both sides are exterior.
+/// * one triangle: a free rim (half-plane, exterior 2π) unless it lies on another face (T-junction, the foot of a wall on the ground) within 1 cm for that part of its length,
+///   or ends the ground (a level sheet that lies lowest, or spans half of the scene, with something above it: the file ends there, not the world), or is artificial.
+///   Where it lies on another face the free sectors between both are wedges if above 185° (a roof and a wall of different meshes).
+/// * two triangles that lie upon each other (within 0.1°): exterior 0 if a solid is beside them (party walls), else 2π (a plate without thickness).
+/// * what is inside a solid or below ground is no wedge, though the report counts it.
 /// * a wedge whose exterior sector is partly filled by another solid (party wall, flush façade, sampled along the edge every 0.5 m and where it changes refined to
-///   1 cm) is cut into pieces, each with the sector that is free (faces, patches and materials those that bound the free sector); a piece below 185° is left out.
-/// * collinear pieces of one edge (same line to 1 mm, same two patch planes and materials, abutting) are merged into one.
+///   1 mm) is cut into pieces, each with the sector that is free (faces, patches and materials those that bound the free sector); a piece below 185° is left out.
+/// * collinear pieces of one edge (same line to 1 mm, same two patches, abutting) are merged into one; so is an edge found twice, on two solids that touch.
+/// Artificial edges are counted nowhere.
 /// The report counts before the filling is looked at, and before merging for `count`; lengths are sums over edges.
 /// The order of `wedges` depends on the scene alone.
 Wedges find_wedges(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles,

@@ -10,6 +10,7 @@ namespace {
 
 // Surfaces this near on the circle (10 nm apart at 1 cm; coordinates of 1e6 m round to 0.1 nm) are taken as one place, rad.
 constexpr double same_place = 1e-6;
+constexpr double same_break = 1e-6;  // m
 // A surface that only meets an end of the edge comes within reach for about the contact distance; up to this
 // length (a slope of 11° against the edge) it belongs to the corner and does not shorten the edge, m.
 constexpr double corner_reach = 5 * contact_distance;
@@ -127,7 +128,10 @@ void EdgeSection::look_around() {
     breaks_.push_back(n.to);
   }
   std::sort(breaks_.begin(), breaks_.end());
-  breaks_.erase(std::unique(breaks_.begin(), breaks_.end()), breaks_.end());
+  // Breaks that differ by rounding alone are one; the ends stay exact.
+  breaks_.erase(std::unique(breaks_.begin(), breaks_.end(), [](double a, double b) { return b - a < same_break; }),
+                breaks_.end());
+  breaks_.back() = length;
 }
 
 bool EdgeSection::has_others(double t) const {

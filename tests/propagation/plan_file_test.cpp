@@ -358,7 +358,7 @@ TEST_F(PlanFile, WrongNumbersAreRefused) {
   expect_one(m + "[propagation]\ndepth = 2.5\n", 8, "propagation.depth", "not a whole number");
   expect_one(m + "[propagation]\ndepth = -1\n", 8, "propagation.depth", "out of range");
   expect_one(m + "[budget]\nrays = 0\n", 8, "budget.rays", "out of range", "1");
-  expect_one(m + "[budget]\npasses = 1\n", 8, "budget.passes", "out of range", "2 … 64");
+  expect_one(m + "[budget]\npasses = 1\n", 8, "budget.passes", "out of range", "2 … 32");
   expect_one(m + "[budget]\nseed = -1\n", 8, "budget.seed", "out of range");
   expect_one(m + "[profile]\nmax_paths = 0\n", 8, "profile.max_paths", "out of range");
 }

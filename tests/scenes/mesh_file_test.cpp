@@ -233,6 +233,11 @@ TEST_F(MeshFile, HostileGltf) {
   refused("h.gltf", replaced(good, R"("count": 3, "type": "VEC3")", R"("count": -3, "type": "VEC3")"), "whole number");
   refused("i.gltf", gltf(R"({"children": [0]})"), "contain themselves");
   refused("j.gltf", gltf(R"({"children": [1, 1]}, {"mesh": 0})"), "two parents");
+  refused("n.gltf", replaced(good, R"("POSITION": 0)", R"("POSITION": 0, "NORMAL": 1)"), "another length");
+  refused("o.gltf", replaced(good, R"("POSITION": 0}, "indices": 1)", R"("POSITION": 0}, "indices": 0)"), "indices");
+  refused("p.gltf", replaced(good, R"(5126, "count": 3, "type": "VEC3")", R"(5123, "count": 3, "type": "VEC3")"),
+          "three floats");
+  refused("q.gltf", replaced(good, R"("asset")", R"("skins": [{"joints": [0]}], "asset")"), "skinned");
   refused("k.gltf", replaced(good, R"("POSITION": 0)", R"("POSITION": 9)"), "accessor 9");
   std::string chain = R"({"children": [1]})";
   for (int i = 2; i < 100000; ++i) chain += R"(, {"children": [)" + std::to_string(i) + "]}";
@@ -253,8 +258,27 @@ TEST_F(MeshFile, GltfIndexOutOfRange) {
   refused("index.gltf", text, "");
 }
 
+// Comments behind a face, indented and joined lines, an mtllib that is no material library.
+TEST_F(MeshFile, ObjWrittenByHand) {
+  const auto meshes = read("hand.obj",
+                           "mtllib hand.obj\nv 0 0 \\\n0\nv 1 0 0\r\n\tv +0 1 0 # tip\n"
+                           "  usemtl  light   wood\n f 1// 2// \\\r\n 3// # face\nf 3 2 1#back");
+  EXPECT_TRUE(diagnostics.all().empty()) << all_messages(diagnostics);
+  ASSERT_EQ(meshes.size(), 1u);
+  EXPECT_EQ(meshes[0].triangles.size(), 2u);
+  EXPECT_EQ(meshes[0].material, "light_wood");
+}
+
 TEST_F(MeshFile, BadObj) {
-  refused("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "range.obj");
+  refused("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n",
+          "range.obj:4: a face names a vertex that is not there (v 9; the file has 3)");
+  refused("back.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -1 -2 -4\nv 1 1 1\n", "3 of them so far");
+  refused("zero.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n\nf 0 1 2\n", "zero.obj:5:");
+  refused("uv.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/2\n", "vt 2; the file has 1");
+  refused("short.obj", "v 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "short.obj:1: vertex 1 has fewer than three numbers");
+  refused("comma.obj", "v 0,5 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "\"0,5\" is not a number");
+  refused("huge.obj", "v 0 0 0\nv 1e999 0 0\nv 0 1 0\nf 1 2 3\n", "huge.obj:2: vertex 2 is NaN or infinite");
+  refused("float.obj", "v 0 0 0\nv 1e39 0 0\nv 0 1 0\nf 1 2 3\n", "NaN or infinite");  // beyond a float
   refused("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", "NaN or infinite");
   EXPECT_TRUE(read("words.obj", "this is not a mesh at all\n").empty());
   EXPECT_NE(all_messages(diagnostics).find("no faces"), std::string::npos);
