@@ -45,12 +45,8 @@ Interruption::~Interruption() {
   sigaction(SIGTERM, &old_terminate, nullptr);
 }
 
-void Interruption::begin_run() {
-  running.store(true);
-}
+void Interruption::begin_run() { running.store(true); }
 
-const std::atomic<bool>* Interruption::flag() const {
-  return &stop;
-}
+const std::atomic<bool>* Interruption::flag() const { return &stop; }
 
 }  // namespace grimaldi

@@ -33,8 +33,6 @@ void Progress::clear() {
   std::fflush(stderr);
 }
 
-bool stderr_is_terminal() {
-  return isatty(STDERR_FILENO) == 1;
-}
+bool stderr_is_terminal() { return isatty(STDERR_FILENO) == 1; }
 
 }  // namespace grimaldi

@@ -13,9 +13,7 @@ namespace {
 // Receivers beyond these are in the picture and the result.
 constexpr std::size_t most_receivers = 10;
 
-std::string row(const std::string& title, const std::string& text) {
-  return fmt::format("{:<12}{}\n", title, text);
-}
+std::string row(const std::string& title, const std::string& text) { return fmt::format("{:<12}{}\n", title, text); }
 
 std::string short_count(double count) {
   if (count >= 1e9) return fmt::format("{:.2f} G", count / 1e9);

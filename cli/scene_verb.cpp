@@ -36,13 +36,9 @@ EdgeTally all_wedges(const WedgeReport& report) {
           report.within_material.length + report.across_materials.length};
 }
 
-Json tally_json(const EdgeTally& tally) {
-  return {{"count", tally.count}, {"length_m", tally.length}};
-}
+Json tally_json(const EdgeTally& tally) { return {{"count", tally.count}, {"length_m", tally.length}}; }
 
-std::string row(const std::string& title, const std::string& text) {
-  return fmt::format("{:<14}{}\n", title, text);
-}
+std::string row(const std::string& title, const std::string& text) { return fmt::format("{:<14}{}\n", title, text); }
 
 std::string edge_row(const std::string& title, const EdgeTally& tally, const std::string& meaning) {
   return row(title, fmt::format("{:>8}  {:>12.1f} m  {}", tally.count, tally.length, meaning));

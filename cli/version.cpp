@@ -2,8 +2,6 @@
 
 namespace grimaldi {
 
-const char* program_version() {
-  return GRIMALDI_VERSION;
-}
+const char* program_version() { return GRIMALDI_VERSION; }
 
 }  // namespace grimaldi

@@ -1,10 +1,11 @@
 # The flags of the project's own code: warnings are errors, one architecture, and no
 # contraction of a*b+c, so that a result does not depend on what the optimiser fused.
+# Complex products and quotients by Fortran's rules: scaled as in C, without C's search for infinities.
 add_library(grimaldi_flags INTERFACE)
 target_compile_options(grimaldi_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Werror
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> # g++ 12 warns of std::string's own code (GCC bug 105651)
-  -march=${GRIMALDI_ARCH} -ffp-contract=off)
+  -march=${GRIMALDI_ARCH} -ffp-contract=off -fcx-fortran-rules)
 target_include_directories(grimaldi_flags INTERFACE ${PROJECT_SOURCE_DIR})
 if(GRIMALDI_SANITIZE)
   target_compile_options(grimaldi_flags INTERFACE -fsanitize=${GRIMALDI_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)

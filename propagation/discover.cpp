@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 
 #include "core/blocks.h"
@@ -30,6 +31,9 @@ struct Beam {
   std::uint8_t depth = 0, reflections = 0, diffractions = 0;
   std::array<Interaction, max_depth> interactions;
 };
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// What one block of beams found; distinct within the block.
 struct BlockRecords {
@@ -320,17 +324,21 @@ Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, 
             walker.walk(request.transmitters[transmitter].position, launcher.direction(i), pass << 40 | i);
         },
         stop);
+    const auto start = Clock::now();
     for (const BlockRecords& block : records) merge(block, 1u << pass, all);
     all.rays += count;
     if (all.seeds.size() > 8'000'000) unite_seeds(all.seeds);
+    all.merge_seconds += seconds_since(start);
     if (progress) progress(double(pass + 1) / double(passes));
   }
+  const auto start = Clock::now();
   const std::vector<std::uint32_t> renumbered = all.sequences.sort();
   std::vector<std::uint32_t> found(all.found.size());
   for (std::size_t i = 0; i < found.size(); ++i) found[renumbered[i]] = all.found[i];
   all.found = std::move(found);
   for (Seed& seed : all.seeds) seed.sequence = renumbered[seed.sequence];
   unite_seeds(all.seeds);
+  all.merge_seconds += seconds_since(start);
   return all;
 }
 

@@ -24,6 +24,7 @@ struct Discovered {
   std::vector<Seed> seeds;           ///< sorted by sequence, then cell; unique
   FluxLedger flux;                   ///< of the launched beams, shares of all
   std::uint64_t rays = 0, segments = 0;
+  double merge_seconds = 0;  ///< of one thread, uniting the blocks' records
 };
 
 /// Launches the plan's rays from transmitter `transmitter` in plan.request.passes passes. A beam reflects at every face up to the depth; where it hits within

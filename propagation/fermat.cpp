@@ -10,6 +10,8 @@ namespace {
 
 /// Two vertices of a path nearer than this are one point: no direction between them.
 constexpr double shortest_leg = 1e-6;
+/// Newton's last step, m: convergence is quadratic, so what it leaves is far below a nanometre, and the length errs by its square.
+constexpr double last_step = 1e-5;
 /// Beyond an end of an edge its wave is kept while v_V is below this (physics: line 6 of the edge's law).
 constexpr double end_parameter_limit = 3;
 
@@ -51,7 +53,7 @@ UnfoldedSequence::UnfoldedSequence(const Scene& scene, const Vec3& source, std::
   }
 }
 
-bool UnfoldedSequence::fermat_points(const Vec3& receiver, std::array<double, max_edges>& along) const {
+bool UnfoldedSequence::fermat_points(const Vec3& receiver, std::array<double, max_edges>& along) {
   const auto closed_form = [&](const UnfoldedEdge& edge, const Vec3& a, const Vec3& b) {
     const Vec3 pa = a - edge.start, pb = b - edge.start;
     const double za = dot(pa, edge.direction), zb = dot(pb, edge.direction);
@@ -64,6 +66,10 @@ bool UnfoldedSequence::fermat_points(const Vec3& receiver, std::array<double, ma
   }
   // Start: each edge for itself between the ends, then Newton on the convex length with a tridiagonal Hessian.
   for (std::size_t i = 0; i < edge_count_; ++i) {
+    if (has_last_) {
+      along = last_;
+      break;
+    }
     const Vec3 before = i == 0 ? image_ : edges_[i - 1].point(along[i - 1]);
     along[i] = closed_form(edges_[i], before, receiver);
   }
@@ -113,16 +119,23 @@ bool UnfoldedSequence::fermat_points(const Vec3& receiver, std::array<double, ma
     }
     double largest = 0;
     for (std::size_t i = 0; i < edge_count_; ++i) largest = std::max(largest, std::abs(step[i]));
-    std::array<double, max_edges> next = along;
-    double share = 1;
-    for (int halving = 0; halving < 40; ++halving, share *= 0.5) {
-      for (std::size_t i = 0; i < edge_count_; ++i) next[i] = along[i] + share * step[i];
-      if (length(next) <= current) break;
+    if (largest < last_step) {
+      for (std::size_t i = 0; i < edge_count_; ++i) along[i] += step[i];
+      last_ = along;
+      has_last_ = true;
+      return true;
     }
-    if (length(next) > current) return largest < 1e-6 * current;
+    // A full Newton step, halved while it does not shorten the way.
+    std::array<double, max_edges> next;
+    double shorter = current;
+    for (double share = 1; share > 1e-9; share *= 0.5) {
+      for (std::size_t i = 0; i < edge_count_; ++i) next[i] = along[i] + share * step[i];
+      shorter = length(next);
+      if (shorter <= current) break;
+    }
+    if (shorter > current) return false;
     along = next;
-    current = length(along);
-    if (largest * share < 1e-12 * current || largest < 1e-9) return true;
+    current = shorter;
   }
   return false;
 }
@@ -177,7 +190,7 @@ bool UnfoldedSequence::mirror_points(std::size_t first, std::size_t last, PathGe
   return true;
 }
 
-bool UnfoldedSequence::solve(const Vec3& receiver, double wavelength, PathGeometry& geometry) const {
+bool UnfoldedSequence::solve(const Vec3& receiver, double wavelength, PathGeometry& geometry) {
   if (!possible_) return false;
   const std::size_t n = interactions_.size();
   geometry.count = n + 2;

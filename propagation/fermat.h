@@ -47,7 +47,8 @@ class UnfoldedSequence {
   /// box, an azimuth inside the solid, a diffraction point so far beyond the edge's end that v_V ≥ 3 there at `wavelength` (m), or two
   /// vertices of the path nearer than 1 µm. Visibility is not asked here.
   /// Method: one edge in closed form (the two half-planes through the edge unfolded); more by Newton on the length, which is convex, until the step is below 1e-12 of the length.
-  bool solve(const Vec3& receiver, double wavelength, PathGeometry& geometry) const;
+  /// Newton starts from the last solution of this object, so that neighbouring receivers cost one or two steps; the solution itself is the same to 1e-9 m.
+  bool solve(const Vec3& receiver, double wavelength, PathGeometry& geometry);
 
  private:
   struct UnfoldedEdge {
@@ -56,7 +57,7 @@ class UnfoldedSequence {
     Vec3 start, direction, along0, normal0;
     Vec3 point(double t) const { return start + t * direction; }
   };
-  bool fermat_points(const Vec3& receiver, std::array<double, max_edges>& along) const;
+  bool fermat_points(const Vec3& receiver, std::array<double, max_edges>& along);
   bool passage(std::size_t i, const Vec3& before, double along, const Vec3& after, EdgePassage& out) const;
   bool mirror_points(std::size_t first, std::size_t last, PathGeometry& geometry) const;
 
@@ -66,6 +67,8 @@ class UnfoldedSequence {
   std::array<UnfoldedEdge, max_edges> edges_;
   std::size_t edge_count_ = 0;
   bool possible_ = true;
+  std::array<double, max_edges> last_{};  ///< where Newton ended
+  bool has_last_ = false;
 };
 
 /// `point` mirrored in the plane of `patch`.

@@ -78,7 +78,34 @@ ReflectionCoefficients wedge_face_reflection(const Plan& plan, std::uint32_t mat
   return {0.5 * (in.te + out.te), 0.5 * (in.tm + out.tm)};
 }
 
+/// Bound on |U| of a straight edge: its value at the boundary, its asymptote beyond (|w| decreases and stays below √2/(π v)).
+double edge_wave_bound(double v) { return v < 0.45 ? 0.5 : 1 / (std::sqrt(2.0) * pi * v); }
+
 }  // namespace
+
+double power_bound(const Scene& scene, const Plan& plan, const PathGeometry& geometry) {
+  const double wavelength = 2 * pi / plan.wavenumber.front();
+  constexpr double highest_gain = 1.65;
+  double bound = plan.request.kind == WaveKind::radio ? highest_gain * std::pow(wavelength / (4 * pi), 2) : 1 / (4 * pi);
+  // Lengths of a chain of edges: √L √(ρ/(s(s+ρ))) with L ≤ s_out, and ρ at most the whole way so far.
+  double way = geometry.edge_count == 0 ? geometry.length : geometry.edges[0].s_in;
+  bound /= way * way;
+  for (std::size_t i = 0; i < geometry.edge_count; ++i) {
+    const EdgePassage& passage = geometry.edges[i];
+    const Wedge& wedge = scene.wedges.wedges[passage.wedge];
+    const double effective = passage.s_in * passage.s_out / (passage.s_in + passage.s_out);
+    double sum = 0;
+    for (const Boundary boundary : {Boundary::incident, Boundary::face0, Boundary::facen}) {
+      sum += edge_wave_bound(
+          fresnel_parameter(effective, wavelength, passage.sin_beta, beyond_boundary(wedge, passage, boundary)));
+      if (!plan.request.reflection) break;
+    }
+    if (!passage.inside) sum *= 0.75;
+    bound *= sum * sum * effective * way / (passage.s_out * (passage.s_out + way));
+    way += passage.s_out;
+  }
+  return bound;
+}
 
 double boundary_parameter(const Scene& scene, const PathGeometry& geometry, std::size_t edge, Boundary boundary,
                           double wavelength) {

@@ -24,6 +24,10 @@ enum class Boundary { incident, face0, facen };
 void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmitter, std::span<const Interaction> interactions,
                 const PathGeometry& geometry, std::span<std::array<std::complex<double>, 2>> field);
 
+/// A bound on Σ|h|² over both polarisations at the first band, cheap to have: spreading and edges, faces taken as lossless.
+/// |U| ≤ min(½, 1/(√2 π v)) for each of an edge's three terms, ends |T| ≤ 1.5. The antenna's gain is taken as at most 1.65.
+double power_bound(const Scene& scene, const Plan& plan, const PathGeometry& geometry);
+
 /// Fresnel-Kirchhoff parameter of the passage `edge` (index in geometry.edges) at a boundary, at `wavelength` m; v ≥ 0.
 double boundary_parameter(const Scene& scene, const PathGeometry& geometry, std::size_t edge, Boundary boundary,
                           double wavelength);

@@ -38,7 +38,7 @@ class Grower {
   /// One sequence from its seeds [first, last).
   void grow(std::uint32_t sequence, const Seed* first, const Seed* last, Workspace& work, BlockPairs& out) const {
     const auto interactions = discovered_.sequences[sequence];
-    const UnfoldedSequence unfolded(scene_, transmitter_.position, interactions);
+    UnfoldedSequence unfolded(scene_, transmitter_.position, interactions);
     if (!unfolded.possible()) return;
     if (work.visited.empty()) work.visited.assign(grid_.layout.size(), 0);
     const bool may_be_negligible = interactions.size() >= 2 && count_edges(interactions) > 0;
@@ -53,11 +53,12 @@ class Grower {
         const std::uint32_t cell = work.frontier.back();
         work.frontier.pop_back();
         Pair pair{cell, sequence, 0, 0, 0};
-        const bool arrives = arrive(unfolded, interactions, may_be_negligible, work, pair, out.shadow_rays);
+        const Answer answer = arrive(unfolded, interactions, may_be_negligible, work, pair, out.shadow_rays);
+        const bool arrives = answer == Answer::arrives;
         const Seed* here = std::lower_bound(seed, last, cell, [](const Seed& s, std::uint32_t c) { return s.cell < c; });
         // A seed at whose cell nothing arrives (a sliver between the sub-points) still lets its neighbours be asked.
         const bool is_seed = here != last && here->cell == cell;
-        if (!arrives && !is_seed) continue;
+        if (!arrives && !(is_seed && answer == Answer::blocked)) continue;
         if (arrives) out.pairs.push_back(pair);
         if (is_seed) passes |= here->passes;
         ask_neighbours(cell, work);
@@ -68,31 +69,39 @@ class Grower {
 
   /// The direct wave in one cell.
   void direct(std::uint32_t cell, Workspace& work, BlockPairs& out) const {
-    const UnfoldedSequence unfolded(scene_, transmitter_.position, {});
+    UnfoldedSequence unfolded(scene_, transmitter_.position, {});
     Pair pair{cell, 0, 0, ~0u, 0};
-    if (arrive(unfolded, {}, false, work, pair, out.shadow_rays)) out.pairs.push_back(pair);
+    if (arrive(unfolded, {}, false, work, pair, out.shadow_rays) == Answer::arrives) out.pairs.push_back(pair);
   }
 
  private:
-  bool arrive(const UnfoldedSequence& unfolded, std::span<const Interaction> interactions, bool may_be_negligible,
-              Workspace& work, Pair& pair, std::uint64_t& shadow_rays) const {
+  enum class Answer { arrives, blocked, negligible };
+
+  Answer arrive(UnfoldedSequence& unfolded, std::span<const Interaction> interactions, bool may_be_negligible,
+                Workspace& work, Pair& pair, std::uint64_t& shadow_rays) const {
     const auto points = grid_.of(pair.cell);
     work.field.resize(plan_.bands());
+    const double threshold = may_be_negligible ? negligible_share * known_[pair.cell] : 0;
     double power = 0;
+    Answer answer = Answer::blocked;
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (!unfolded.solve(points[i].position, wavelength_, work.geometry)) continue;
-      // The cheaper question first: rays for what cannot be negligible, the field for what can.
-      if (!may_be_negligible && !connected(scene_, tracer_, interactions, work.geometry, shadow_rays)) continue;
+      if (threshold > 0 && power_bound(scene_, plan_, work.geometry) < threshold) {
+        // The bound is smooth: one point speaks for the cell.
+        return pair.visible != 0 ? Answer::arrives : Answer::negligible;
+      }
+      if (!connected(scene_, tracer_, interactions, work.geometry, shadow_rays)) continue;
       path_field(scene_, plan_, transmitter_, interactions, work.geometry, work.field);
       const double here = received_power(work.field[0], Polarisation::both);
-      if (may_be_negligible && (here < negligible_share * known_[pair.cell] ||
-                                !connected(scene_, tracer_, interactions, work.geometry, shadow_rays)))
+      if (here < threshold) {
+        answer = Answer::negligible;
         continue;
+      }
       pair.visible |= std::uint64_t(1) << i;
       power += points[i].weight * here;
     }
     pair.power = static_cast<float>(power);
-    return pair.visible != 0;
+    return pair.visible != 0 ? Answer::arrives : answer;
   }
 
   void ask_neighbours(std::uint32_t cell, Workspace& work) const {

@@ -13,9 +13,7 @@ namespace {
 using Kind = ScenarioNode::Kind;
 
 // The lists of tables of a scenario, and what a member is called if the user gives only its number.
-bool is_list_key(const std::string& key) {
-  return key == "transmitter" || key == "receiver" || key == "material";
-}
+bool is_list_key(const std::string& key) { return key == "transmitter" || key == "receiver" || key == "material"; }
 
 std::vector<std::string> parts_of(const std::string& key) {
   std::vector<std::string> parts(1);

@@ -54,7 +54,7 @@ std::vector<Arrival> arrivals_at(const Scene& scene, const Tracer& tracer, const
         for (std::size_t s = block * block_size; s < std::min(count, (block + 1) * block_size); ++s) {
           const auto interactions = discovered.sequences[s];
           if (interactions.empty() && !plan.request.direct) continue;
-          const UnfoldedSequence unfolded(scene, transmitter.position, interactions);
+          UnfoldedSequence unfolded(scene, transmitter.position, interactions);
           if (!unfolded.solve(position, wavelength, arrival.geometry)) continue;
           if (!connected(scene, tracer, interactions, arrival.geometry, found[block].shadow_rays)) continue;
           arrival.sequence = static_cast<std::uint32_t>(s);

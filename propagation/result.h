@@ -59,7 +59,7 @@ struct FluxLedger {
 
 struct RunFigures {
   double wall_seconds = 0, cpu_seconds = 0, trace_seconds = 0;
-  double discover_seconds = 0, merge_seconds = 0, grow_seconds = 0, evaluate_seconds = 0;  ///< wall time of the stages
+  double discover_seconds = 0, merge_seconds = 0, grow_seconds = 0, evaluate_seconds = 0;  ///< wall time of the stages; merge is part of discover
   unsigned threads = 1;
   std::uint64_t peak_memory_bytes = 0;
   std::uint64_t rays = 0, segments = 0, shadow_rays = 0;

@@ -74,6 +74,7 @@ Result simulate(const Scene& scene, const Tracer& tracer, const Plan& plan, cons
         const StageClock stage(figures.discover_seconds);
         discovered = discover(scene, tracer, plan, t, report("discover", 0, 0.4), stop);
       }
+      figures.merge_seconds += discovered.merge_seconds;
       figures.rays += discovered.rays;
       figures.segments += discovered.segments;
       figures.sequences += discovered.sequences.size();

@@ -120,14 +120,14 @@ class Quarter {
                 std::optional<double> height = {}) {
     const std::uint32_t hash = mixed(static_cast<std::uint32_t>(buildings_.size()) + 1);
     const double x = (p.x0 + p.x1) / 2, y = (p.y0 + p.y1) / 2, far2 = x * x + y * y;
-    const int lowest = far2 < 150.0 * 150 ? 5 : far2 < 260.0 * 260 ? 4 : 3;
-    const int landmark = outline.size() <= 5 && courtyard.empty() && hash / 64 % 5 == 0 ? 4 : 0;
-    const int floors = lowest + static_cast<int>(hash % 4) + landmark;
+    const int lowest = far2 < 150.0 * 150 ? 5 : far2 < 260.0 * 260 ? 3 : 2;
+    const int landmark = outline.size() <= 8 && courtyard.empty() && hash / 64 % 7 == 0 ? 4 : 0;
+    const int floors = lowest + static_cast<int>(hash % 5) + landmark;
     Building building;
     building.outline = std::move(outline);
     building.courtyard = std::move(courtyard);
     building.height = height ? *height : 2 + 3.0 * floors;
-    building.wall_material = landmark ? "glass" : hash / 4 % 8 < 5 ? "brick" : "concrete";
+    building.wall_material = landmark ? "glass" : hash / 8 % 8 < 5 ? "brick" : "concrete";
     building.roof_material = hash / 32 % 2 ? "metal" : "concrete";
     number_ = p.block == block_ ? number_ + 1 : 1;
     block_ = p.block;
@@ -212,8 +212,8 @@ void build_west(Quarter& city) {
   city.u_shape(part(plot('A', 2), 0, 1, 1, 2, 1));
   city.ring(plot('A', 3));
   city.l_shapes(plot('A', 4));
-  city.gabled(plot('A', 5), 2);
-  city.gabled(plot('A', 6, 1), 2);
+  city.gabled(plot('A', 5), 3);
+  city.gabled(plot('A', 6, 1), 3);
   city.l_shapes(plot('B', 1));
   city.ring(plot('B', 2));
   city.u_shape(plot('B', 3, 3));
@@ -223,11 +223,9 @@ void build_west(Quarter& city) {
   Building& workshop = city.add(yard, yard.rectangle(8, 0, 20, 36), {}, 8);
   workshop.wall_material = "wood";
   workshop.roof_material = "metal";
-  city.solid(part(plot('B', 6), 0, 2, 0, 1, 0, 12));
-  city.u_shape(part(plot('B', 6), 1, 2, 0, 1, 3, 12));
-  city.u_shape(part(plot('C', 1), 0, 1, 1, 2, 2, 20));
-  city.gabled(part(plot('C', 1), 0, 1, 0, 2, 0, 20), 2);
-  city.l_shapes({"C2", -114, -160, -40, -108, 0});
+  city.ring(plot('B', 6));
+  city.gate(plot('C', 1, 2));
+  city.ring({"C2", -114, -160, -40, -108, 0});
   city.ring({"C2", -114, -98, -40, -40, 0});
   city.solid({"C3", -114, -26, -82, 26, 0});
   city.solid({"C3", -74, -26, -40, 26, 0}, 23);
@@ -238,10 +236,9 @@ void build_west(Quarter& city) {
 
 /// North and south of the square.
 void build_middle(Quarter& city) {
-  city.u_shape(part(plot('D', 1), 0, 1, 0, 2, 0));
-  city.u_shape(part(plot('D', 1), 0, 1, 1, 2, 2));
+  city.gate(plot('D', 1));
   city.gate(part(plot('D', 2), 0, 1, 1, 2, 2));
-  city.solid(part(plot('D', 2), 0, 1, 0, 2, 0));
+  city.ring(part(plot('D', 2), 0, 1, 0, 2, 0));
   Building& town_hall = city.u_shape({"D4", -26, 40, 26, 74, 0}, 12);
   town_hall.height = 20;
   town_hall.wall_material = "marble";
@@ -251,14 +248,14 @@ void build_middle(Quarter& city) {
   hall.wall_material = "marble";
   hall.roof_material = "metal";
   city.ring(plot('D', 5));
-  city.solid(part(plot('D', 6), 0, 1, 0, 2, 0));
-  city.solid(part(plot('D', 6), 0, 1, 1, 2, 0));
+  city.solid(part(plot('D', 6), 0, 2, 0, 1, 0, 16));
+  city.solid(part(plot('D', 6), 1, 2, 0, 1, 0, 16));
 }
 
 /// East of the square.
 void build_east(Quarter& city) {
   city.gabled(part(plot('E', 1), 0, 2, 0, 1, 1, 14), 2);
-  city.gabled(part(plot('E', 1), 1, 2, 0, 1, 1, 14), 2);
+  city.gate(part(plot('E', 1), 1, 2, 0, 1, 0, 14));
   const Plot corner{"E2", 44, -76, 76, -44, 0};
   Building& tower = city.add(
       corner, corner.polygon({{9, 0}, {23, 0}, {32, 9}, {32, 23}, {23, 32}, {9, 32}, {0, 23}, {0, 9}}), {}, 90);
@@ -282,8 +279,7 @@ void build_east(Quarter& city) {
         "brick";
     city.u_shape({whole.block, 264, y0, 294, y1, 3}, 10);
   }
-  city.u_shape(part(plot('F', 3), 0, 2, 0, 1, 0));
-  city.ring(part(plot('F', 3), 1, 2, 0, 1, 0));
+  city.gate(plot('F', 3, 2));
   city.l_shapes(plot('F', 4));
   city.ring(plot('F', 5));
   city.u_shape(part(plot('F', 6), 0, 2, 0, 1, 0));

@@ -27,7 +27,8 @@ struct EdgeTable {
 };
 
 /// The table of `triangles`, whose corners are three different indices below `vertex_count`.
-/// Time and memory are linear in the number of triangles (times the logarithm of the greatest number of edges at a vertex).
+/// Time and memory are linear in the number of triangles (times the logarithm of the greatest number of edges at a
+/// vertex).
 EdgeTable make_edge_table(std::size_t vertex_count, const std::vector<std::array<std::uint32_t, 3>>& triangles);
 
 }  // namespace grimaldi

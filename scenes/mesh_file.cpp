@@ -1,7 +1,6 @@
 #include "scenes/mesh_file.h"
 
 #include <assimp/BaseImporter.h>
-#include <assimp/DefaultIOSystem.h>
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -17,8 +16,8 @@
 #include "core/material.h"
 #include "scenes/affine.h"
 #include "scenes/file_contents.h"
-#include "scenes/gltf_check.h"
-#include "scenes/obj_text.h"
+#include "scenes/plain_gltf.h"
+#include "scenes/plain_obj.h"
 
 namespace grimaldi {
 namespace {
@@ -49,15 +48,6 @@ void keep_promised_importers(Assimp::Importer& importer) {
     delete other;
   }
 }
-
-// glTF writes "a b.bin" as "a%20b.bin", which assimp would look for letter by letter.
-class DecodingFiles : public Assimp::DefaultIOSystem {
- public:
-  Assimp::IOStream* Open(const char* name, const char* mode) override {
-    if (Exists(name)) return DefaultIOSystem::Open(name, mode);
-    return DefaultIOSystem::Open(percent_decoded(name).c_str(), mode);
-  }
-};
 
 Affine affine(const aiMatrix4x4& m) {
   return {{{{m.a1, m.a2, m.a3, m.a4}, {m.b1, m.b2, m.b3, m.b4}, {m.c1, m.c2, m.c3, m.c4}}}};
@@ -177,29 +167,19 @@ std::vector<MeshDescription> meshes_of(const aiScene& scene, const std::filesyst
 std::vector<MeshDescription> read_with_assimp(const std::filesystem::path& file, Diagnostics& diagnostics) {
   const std::string ending = lower_ending(file);
   const bool gltf = ending == ".gltf" || ending == ".glb";
-  if (gltf) {
-    if (!gltf_is_sound(file, diagnostics)) return {};
-  } else if (const std::optional<FileFault> fault = file_fault(file)) {
-    diagnostics.error(file.string(), 0, {}, fault->problem, fault->why, fault->suggestion);
-    return {};
-  }
+  std::optional<std::string> contents = gltf ? plain_gltf(file, diagnostics) : read_file_contents(file, diagnostics);
+  if (contents && ending == ".obj")
+    contents = plain_obj(*contents, AI_DEFAULT_MATERIAL_NAME, file.string(), diagnostics);
+  if (!contents) return {};
   Affine upright;
   if (gltf) upright.row = {{{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}}};  // y up → z up
   std::string problem;
   try {
     Assimp::Importer importer;
     keep_promised_importers(importer);
-    importer.SetIOHandler(new DecodingFiles);  // the importer owns it
-    const aiScene* scene = nullptr;
-    if (ending == ".obj") {
-      const std::optional<std::string> contents = read_file_contents(file, diagnostics);
-      if (!contents) return {};
-      const auto text = plain_obj(*contents, AI_DEFAULT_MATERIAL_NAME, file.string(), diagnostics);
-      if (!text) return {};
-      scene = importer.ReadFileFromMemory(text->data(), text->size(), aiProcess_Triangulate, "obj");
-    } else {
-      scene = importer.ReadFile(file.string(), aiProcess_Triangulate);
-    }
+    const char* const hint = gltf ? "glb" : ending == ".obj" ? "obj" : "stl";
+    const aiScene* const scene =
+        importer.ReadFileFromMemory(contents->data(), contents->size(), aiProcess_Triangulate, hint);
     if (scene != nullptr) return meshes_of(*scene, file, upright, diagnostics);
     problem = importer.GetErrorString();
   } catch (const std::exception& error) {

@@ -19,7 +19,7 @@ MeshDescription read_ply(const std::filesystem::path& file, Diagnostics& diagnos
 
 /// OBJ, STL and glTF (.glb, .gltf) through assimp; one mesh per object and material, material named as in the file
 /// (`material_key` of it; a material library named by mtllib is not opened). glTF nodes are applied and z is up.
-/// OBJ and glTF are held against themselves first (obj_text.h, gltf_check.h), so assimp only meets sound files.
+/// OBJ and glTF are held against themselves and made plain first (plain_obj.h, plain_gltf.h): assimp meets sound files.
 /// Warnings: no faces, points and lines (passed over).
 /// assimp keeps coordinates in single precision: a warning says so (with the loss in metres) when a coordinate exceeds
 /// 1e4 m.

@@ -30,7 +30,8 @@ std::size_t count_holes(const std::vector<Vec3>& vertices, const std::vector<std
   };
   std::vector<std::uint32_t> parent(3 * triangles.size());
   std::iota(parent.begin(), parent.end(), 0u);
-  std::vector<std::uint8_t> single(3 * triangles.size(), 0);  // the side from corner 3 t + k to the next has one triangle
+  std::vector<std::uint8_t> single(3 * triangles.size(),
+                                   0);  // the side from corner 3 t + k to the next has one triangle
   for (const Edge& edge : table.edges) {
     const EdgeUse& a = table.uses[edge.begin];
     if (edge.valence() == 1) single[corner(a.triangle, a.forward ? edge.vertex0 : edge.vertex1)] = 1;

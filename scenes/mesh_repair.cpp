@@ -172,7 +172,8 @@ std::vector<std::uint8_t> find_reversed(const RepairedMesh& mesh, const Pieces& 
   std::vector<std::uint8_t> reversed(mesh.triangles.size());
   for (std::size_t i = 0; i < reversed.size(); ++i) {
     const auto& t = mesh.triangles[i];
-    const double area = norm(cross(mesh.vertices[t[1]] - mesh.vertices[t[0]], mesh.vertices[t[2]] - mesh.vertices[t[0]]));
+    const double area =
+        norm(cross(mesh.vertices[t[1]] - mesh.vertices[t[0]], mesh.vertices[t[2]] - mesh.vertices[t[0]]));
     kept[pieces.triangle_piece[i]] += pieces.triangle_turned[i] ? -area : area;
   }
   for (std::size_t i = 0; i < reversed.size(); ++i) {

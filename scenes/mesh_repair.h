@@ -27,11 +27,14 @@ struct RepairedMesh {
   Defects defects;
 };
 
-/// Welds vertices nearer than `weld_distance` m (each to the first of its cluster, in the order of the file; the result does not depend on threads),
-/// drops degenerate and duplicate triangles, orients each component (pieces joined by edges of exactly two triangles)
-/// consistently with outward normals: by the sign of the volume under it for what has an inside (closed, or open only at its foot),
-/// upward for a sheet that is nearly flat and horizontal (ground), else as the file has it by majority of area.
-/// Source: CGAL's polygon soup (duplicates, degenerate, orientation) and OpenMesh (boundary loops, per component).
+/// Welds vertices nearer than `weld_distance` m (each to the first of its cluster, in the order of the file; the result
+/// does not depend on threads), drops degenerate and duplicate triangles, orients each component (pieces joined by
+/// edges of exactly two triangles, see scenes/piece.h) consistently with outward normals: by the sign of the volume
+/// under it for what has an inside (closed, or open only at its foot), upward for a sheet that is nearly flat and
+/// horizontal (ground), else as the file has it by majority of area. A closed piece inside another counts as a solid of
+/// its own, not as a hollow. Source: CGAL's polygon soup (duplicates) and OpenMesh (boundary loops); the
+/// orientation is our own, since CGAL's doubles the vertices where more than two triangles meet.
+/// Valid: finite coordinates, indices within the mesh, as the readers guarantee.
 RepairedMesh repair(const SceneDescription& description, double weld_distance = 0.01);
 
 }  // namespace grimaldi

@@ -45,9 +45,7 @@ std::optional<std::vector<double>> numbers_in(std::string_view text) {
   return numbers;
 }
 
-bool is(const pugi::xml_node& node, const char* tag) {
-  return std::strcmp(node.name(), tag) == 0;
-}
+bool is(const pugi::xml_node& node, const char* tag) { return std::strcmp(node.name(), tag) == 0; }
 
 // Elements that are read, or passed over because they say nothing of where a surface is or what it is made of.
 bool is_known_element(const pugi::xml_node& node) {

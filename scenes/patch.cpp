@@ -11,9 +11,9 @@
 namespace grimaldi {
 namespace {
 
-constexpr double touch = 1e-3;                   // m; see find_patches
-constexpr double plane_tolerance = 1e-3;         // m, of a smaller triangle's corners from the larger one's plane
-constexpr double drift = 2e-3;                   // m, of a patch's vertices from its plane
+constexpr double touch = 1e-3;                       // m; see find_patches
+constexpr double plane_tolerance = 1e-3;             // m, of a smaller triangle's corners from the larger one's plane
+constexpr double drift = 2e-3;                       // m, of a patch's vertices from its plane
 constexpr double normal_tolerance = 0.2 * pi / 180;  // rad
 
 struct Surface {
@@ -38,7 +38,8 @@ bool coplanar(const Surface& s, std::uint32_t a, std::uint32_t b) {
   return true;
 }
 
-/// Two coplanar triangles overlap or come within `touch`: no side of either has the other wholly beyond it (separating axes).
+/// Two coplanar triangles overlap or come within `touch`: no side of either has the other wholly beyond it (separating
+/// axes).
 bool overlap(const Surface& s, std::uint32_t a, std::uint32_t b) {
   const auto apart = [&](std::uint32_t one, std::uint32_t other) {
     for (int k = 0; k < 3; ++k) {

@@ -8,12 +8,13 @@
 namespace grimaldi {
 namespace {
 
-constexpr double foot_share = 0.9;     // of the rim that is foot; see the header
-constexpr double level_share = 0.9;    // of the area that is horizontal
+constexpr double foot_share = 0.6;       // of the rim that is foot; see the header
+constexpr double level_share = 0.9;      // of the area that is horizontal
 constexpr double foot_steepness = 0.71;  // sine of the steepest foot, 45°
 constexpr double folded = 0.9962;        // cosine of 5°
 constexpr double foot_rise = 0.17;       // sine of the least rise of a surface from its foot, 10°
-// Volume over area × height below which a closed surface is taken for two sheets back to back. A house has 0.05 and more, rounding 1e-10.
+// Volume over area × height below which a closed surface is taken for two sheets back to back. A house has 0.05 and
+// more, rounding 1e-10.
 constexpr double least_fullness = 1e-6;
 
 struct Measure {
@@ -134,8 +135,7 @@ Pieces find_pieces(const std::vector<Vec3>& vertices, const std::vector<std::arr
     m.area += 0.5 * norm(twice);
     m.projected += upward;
     m.projected_size += std::abs(upward);
-    const double height =
-        ((vertices[t[0]].z - m.low) + (vertices[t[1]].z - m.low) + (vertices[t[2]].z - m.low)) / 3;
+    const double height = ((vertices[t[0]].z - m.low) + (vertices[t[1]].z - m.low) + (vertices[t[2]].z - m.low)) / 3;
     m.volume += upward * height;
   }
   for (const Edge& edge : table.edges) {

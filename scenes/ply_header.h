@@ -20,9 +20,7 @@ constexpr std::size_t size_of(PlyType type) {
   constexpr std::size_t sizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
   return sizes[static_cast<int>(type)];
 }
-constexpr bool is_integer(PlyType type) {
-  return type < PlyType::float32;
-}
+constexpr bool is_integer(PlyType type) { return type < PlyType::float32; }
 
 struct PlyProperty {
   std::string name;

@@ -43,8 +43,9 @@ class MaterialTable {
   void report_unused() const {
     for (const auto& [from, to] : choice_.replace) {
       if (from == "*" || seen_.contains(from)) continue;
-      diagnostics_.warning(description_.name, 0, "", fmt::format("nothing to replace: no face has the material \"{}\"", from),
-                           "", did_you_mean(from, {seen_.begin(), seen_.end()}));
+      diagnostics_.warning(description_.name, 0, "",
+                           fmt::format("nothing to replace: no face has the material \"{}\"", from), "",
+                           did_you_mean(from, {seen_.begin(), seen_.end()}));
     }
   }
 
@@ -65,8 +66,9 @@ class MaterialTable {
       material = built_in->second;
     } else if (!by_numbers) {
       diagnostics_.error(description_.name, 0, "", fmt::format("unknown material \"{}\"", key),
-                         key == own ? "neither the scenario nor the program's table has it, and the file gives no numbers"
-                                    : fmt::format("it replaces \"{}\"", own),
+                         key == own
+                             ? "neither the scenario nor the program's table has it, and the file gives no numbers"
+                             : fmt::format("it replaces \"{}\"", own),
                          did_you_mean(key, {known_.begin(), known_.end()}));
     }
     material.name = key;
@@ -101,7 +103,8 @@ class MaterialTable {
   std::vector<Material> materials_;
 };
 
-/// FNV-1a, 64 bits. Source: G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake, "The FNV Non-Cryptographic Hash Algorithm", draft-eastlake-fnv.
+/// FNV-1a, 64 bits. Source: G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake, "The FNV Non-Cryptographic Hash Algorithm",
+/// draft-eastlake-fnv.
 class Fingerprint {
  public:
   template <typename T>
@@ -176,7 +179,8 @@ void report_defects(const std::string& file, const Defects& defects, Diagnostics
   warn(defects.degenerate, "degenerate triangles left out", "corners within 1 cm of each other, or no height");
   warn(defects.duplicate, "duplicate triangles left out", "the same three corners as an earlier one");
   warn(defects.flipped, "triangles turned round", "their normal pointed inward, or against their neighbours'");
-  warn(defects.non_manifold_edges, "edges of three and more triangles", "the sectors between them are judged one by one");
+  warn(defects.non_manifold_edges, "edges of three and more triangles",
+       "the sectors between them are judged one by one");
   warn(defects.holes, "open rims", "boundary loops: sheets, holes, and solids open at their foot");
 }
 
@@ -219,8 +223,8 @@ Scene build_scene(const SceneDescription& description, const MaterialChoice& cho
 
   measure(scene);
   scene.patches = find_patches(scene.vertices, scene.triangles, scene.triangle_material);
-  scene.wedges = find_wedges(scene.vertices, scene.triangles, scene.triangle_material, scene.patches,
-                             mesh.artificial_edges);
+  scene.wedges =
+      find_wedges(scene.vertices, scene.triangles, scene.triangle_material, scene.patches, mesh.artificial_edges);
   scene.fingerprint = fingerprint(scene);
   return scene;
 }

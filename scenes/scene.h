@@ -26,22 +26,24 @@ struct Scene {
   Patches patches;
   Wedges wedges;
   Defects defects;
-  Vec3 low, high;        ///< extent
-  double ground = 0;     ///< height of the lowest surface, m (0 for a scene without triangles)
+  Vec3 low, high;                 ///< extent
+  double ground = 0;              ///< height of the lowest surface, m (0 for a scene without triangles)
   std::uint64_t fingerprint = 0;  ///< FNV-1a over vertices, triangles, materials: tells scenes apart
-  /// True if the triangle is ground (in the lowest plane z = ground within 1 cm, looking straight up, unlike the floor of a solid): not part of a solid.
+  /// True if the triangle is ground (in the lowest plane z = ground within 1 cm, looking straight up, unlike the floor
+  /// of a solid): not part of a solid.
   std::vector<std::uint8_t> triangle_is_ground;
 };
 
 /// How the user wants the materials of a scene taken.
 struct MaterialChoice {
-  std::string default_material = "concrete";          ///< for faces that name none
-  std::map<std::string, std::string> replace;         ///< key → key; "*" = every other
-  std::map<std::string, Material> overrides;          ///< the scenario's [[material]] tables by key
+  std::string default_material = "concrete";   ///< for faces that name none
+  std::map<std::string, std::string> replace;  ///< key → key; "*" = every other
+  std::map<std::string, Material> overrides;   ///< the scenario's [[material]] tables by key
 };
 
 /// Repairs, finds patches and wedges, resolves materials: scenario over scene file over built-in table.
-/// Errors to `diagnostics`: unknown material (with did you mean), no triangles. Warnings: faces without material, defects found.
+/// Errors to `diagnostics`: unknown material (with did you mean), no triangles. Warnings: faces without material,
+/// defects found.
 Scene build_scene(const SceneDescription& description, const MaterialChoice& choice, Diagnostics& diagnostics);
 
 }  // namespace grimaldi

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// How often the triangle's outline, seen from above, runs round the point, counterclockwise +1: half-open, and each side is
-/// judged from its lower vertex index, so that of triangles that share sides exactly one has the point.
+/// How often the triangle's outline, seen from above, runs round the point, counterclockwise +1: half-open, and each
+/// side is judged from its lower vertex index, so that of triangles that share sides exactly one has the point.
 int turns_around(const Surroundings& s, std::uint32_t triangle, const Vec3& point) {
   const auto& t = s.triangles[triangle];
   int turns = 0;
@@ -59,6 +59,7 @@ Surroundings::Surroundings(const std::vector<Vec3>& all_vertices,
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const std::uint32_t p = pieces.triangle_piece[i];
     const Extent& e = extent[p];
+    foot.push_back(e.low);
     // A piece wound inward, and the triangles that no winding of a one-sided piece can set right, bound no solid here.
     solid[i] = pieces.kind[p] == PieceKind::solid && (pieces.outward[p] > 0) == (pieces.triangle_turned[i] == 0);
     ground[i] = pieces.kind[p] == PieceKind::level && high.z > e.high + contact_distance &&
@@ -71,7 +72,7 @@ bool Surroundings::is_inside(const Vec3& point) const {
   tree.find(point, {point.x, point.y, infinity}, above);
   int cover = 0;
   for (const std::uint32_t t : above) {
-    if (!solid[t] && !ground[t]) continue;
+    if (!ground[t] && (!solid[t] || point.z < foot[t])) continue;
     const int turns = turns_around(*this, t, point);
     if (turns == 0) continue;
     // The surface is above the point if the point is on the lower side of its plane.

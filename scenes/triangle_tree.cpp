@@ -22,8 +22,8 @@ TriangleTree::TriangleTree(const std::vector<Vec3>& vertices,
                            const std::vector<std::array<std::uint32_t, 3>>& triangles) {
   boxes_.reserve(triangles.size());
   for (const auto& [a, b, c] : triangles) {
-    boxes_.push_back({lower(lower(vertices[a], vertices[b]), vertices[c]),
-                      upper(upper(vertices[a], vertices[b]), vertices[c])});
+    boxes_.push_back(
+        {lower(lower(vertices[a], vertices[b]), vertices[c]), upper(upper(vertices[a], vertices[b]), vertices[c])});
   }
   order_.resize(triangles.size());
   std::iota(order_.begin(), order_.end(), 0u);

@@ -10,8 +10,8 @@
 
 namespace grimaldi {
 
-/// Built by halving at the median of the centroids along the longest side; ties go by the index, so the tree depends on the input alone.
-/// Building takes O(n log n), a query O(log n + hits) for triangles of about equal size.
+/// Built by halving at the median of the centroids along the longest side; ties go by the index, so the tree depends on
+/// the input alone. Building takes O(n log n), a query O(log n + hits) for triangles of about equal size.
 class TriangleTree {
  public:
   TriangleTree(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles);

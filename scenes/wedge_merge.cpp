@@ -11,8 +11,8 @@
 namespace grimaldi {
 namespace {
 
-constexpr double on_line = 1e-3;                // m; see merge_pieces
-constexpr double same_angle = 0.5 * pi / 180;   // rad
+constexpr double on_line = 1e-3;               // m; see merge_pieces
+constexpr double same_angle = 0.5 * pi / 180;  // rad
 
 /// The same wedge seen from its other face: the edge runs backward.
 void turn_round(Wedge& w) {
@@ -95,9 +95,8 @@ std::vector<WedgePiece> merge_pieces(std::vector<WedgePiece> pieces) {
       Place place{order[j], 0, 0, 0};
       if (!used[order[j]] && place_on(line, pieces[order[j]].wedge, place)) places.push_back(place);
     }
-    std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
-      return a.from != b.from ? a.from < b.from : a.piece < b.piece;
-    });
+    std::sort(places.begin(), places.end(),
+              [](const Place& a, const Place& b) { return a.from != b.from ? a.from < b.from : a.piece < b.piece; });
     // The run of parts about the longest piece; parts beyond a gap are left for a later turn.
     const auto self = std::find_if(places.begin(), places.end(), [&](const Place& p) { return p.piece == order[i]; });
     double from = self->from, to = self->to;

@@ -8,7 +8,8 @@
 namespace grimaldi {
 namespace {
 
-// Surfaces this near on the circle (10 nm apart at 1 cm; coordinates of 1e6 m round to 0.1 nm) are taken as one place, rad.
+// Surfaces this near on the circle (10 nm apart at 1 cm; coordinates of 1e6 m round to 0.1 nm) are taken as one place,
+// rad.
 constexpr double same_place = 1e-6;
 constexpr double same_break = 1e-6;  // m
 // A surface that only meets an end of the edge comes within reach for about the contact distance; up to this
@@ -21,7 +22,8 @@ constexpr double folded = 0.1 * pi / 180;
 /// `azimuth` plus the multiple of 2π that brings it within π of `centre`.
 double near_to(double azimuth, double centre) { return azimuth - 2 * pi * std::round((azimuth - centre) / (2 * pi)); }
 
-/// The range of t (third coordinate) of the part of a triangle in the frame within |x|, |y| ≤ reach, 0 ≤ t ≤ length. False if there is none.
+/// The range of t (third coordinate) of the part of a triangle in the frame within |x|, |y| ≤ reach, 0 ≤ t ≤ length.
+/// False if there is none.
 bool clip(const std::array<Vec3, 3>& corners, double reach, double length, double& from, double& to) {
   std::array<Vec3, 9> polygon, clipped;
   std::size_t count = 3;
@@ -63,7 +65,8 @@ EdgeSection::EdgeSection(const Surroundings& surroundings, const EdgeTable& tabl
   direction = along / length;
   for (std::uint32_t i = edge.begin; i < edge.end; ++i) {
     const EdgeUse& use = table.uses[i];
-    // In the triangle's plane and across the edge: more exact than from the third corner, which may be far along the edge.
+    // In the triangle's plane and across the edge: more exact than from the third corner, which may be far along the
+    // edge.
     const Vec3 in_face = normalized(cross(s.normal[use.triangle], direction)) * (use.forward ? 1.0 : -1.0);
     if (i == edge.begin) {
       across = in_face;
@@ -121,7 +124,8 @@ void EdgeSection::look_around() {
               length, n.from, n.to)) {
       continue;
     }
-    const bool at_end = std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return v == vertex0_ || v == vertex1_; });
+    const bool at_end =
+        std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return v == vertex0_ || v == vertex1_; });
     if (at_end && n.to - n.from < corner_reach) continue;
     neighbours_.push_back(n);
     breaks_.push_back(n.from);
@@ -146,7 +150,8 @@ void EdgeSection::add_crossings(double t, std::uint32_t triangle, std::vector<Fa
   for (int k = 0; k < 3; ++k) {
     // From the lower vertex index, so that neighbours find the same point on their common side.
     const std::uint32_t v = corners[k], w = corners[(k + 1) % 3];
-    const Vec3 a = in_frame(surroundings_.vertices[std::min(v, w)]), b = in_frame(surroundings_.vertices[std::max(v, w)]);
+    const Vec3 a = in_frame(surroundings_.vertices[std::min(v, w)]),
+               b = in_frame(surroundings_.vertices[std::max(v, w)]);
     if ((a.z >= t) != (b.z >= t) && count < 2) ends[count++] = a + (t - a.z) / (b.z - a.z) * (b - a);
   }
   if (count < 2) return;
@@ -178,9 +183,11 @@ void EdgeSection::find_sectors(double t, double least, std::vector<Sector>& sect
   std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) {
     return a.place != b.place ? a.place < b.place : a.triangle < b.triangle;
   });
-  // At one place solids are entered first: walls back to back leave no gap, a plate without thickness is left on both sides.
+  // At one place solids are entered first: walls back to back leave no gap, a plate without thickness is left on both
+  // sides.
   for (std::size_t i = 1; i < faces.size(); ++i) {
-    for (std::size_t j = i; j > 0 && faces[j].place - faces[j - 1].place < same_place && faces[j].side < faces[j - 1].side; --j) {
+    for (std::size_t j = i;
+         j > 0 && faces[j].place - faces[j - 1].place < same_place && faces[j].side < faces[j - 1].side; --j) {
       std::swap(faces[j], faces[j - 1]);
     }
   }
@@ -189,7 +196,8 @@ void EdgeSection::find_sectors(double t, double least, std::vector<Sector>& sect
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const Face &first = faces[i], &last = faces[(i + 1) % faces.size()];
     const double turn = i + 1 == faces.size() ? 2 * pi : 0;
-    Sector sector{first.direction, std::min(last.direction + turn, first.direction + 2 * pi), first.triangle, last.triangle};
+    Sector sector{first.direction, std::min(last.direction + turn, first.direction + 2 * pi), first.triangle,
+                  last.triangle};
     if (sector.angle() <= least) continue;
     if (faces.size() > 1 && (first.side == Side::entering || last.side == Side::leaving)) continue;
     const double middle = 0.5 * (first.place + last.place + turn);

@@ -28,18 +28,21 @@ class EdgeSection {
   Vec3 up;                ///< direction × across
   double length;          ///< m
 
-  /// Angle of the side to which the first triangle's normal points, rad, of an edge of two triangles. Where these lie upon each other
-  /// (within 0.1°), rounding would decide between 0 and 2π: it is 0 if a solid is beside them (two walls back to back), else 2π (a plate without thickness).
+  /// Angle of the side to which the first triangle's normal points, rad, of an edge of two triangles. Where these lie
+  /// upon each other (within 0.1°), rounding would decide between 0 and 2π: it is 0 if a solid is beside them (two
+  /// walls back to back), else 2π (a plate without thickness).
   double opening() const;
-  /// Looks up which surfaces other than the edge's own come within `contact_distance`. To be called before what follows.
+  /// Looks up which surfaces other than the edge's own come within `contact_distance`. To be called before what
+  /// follows.
   void look_around();
   /// Places along the edge, m, ascending from 0 to `length`, between which the same surfaces are near.
   const std::vector<double>& breaks() const { return breaks_; }
   /// True if surfaces other than the edge's own are near at `t` m from the start.
   bool has_others(double t) const;
-  /// The free sectors of more than `least` rad at `t`, ascending. Their bounds are the surfaces that cross the circle of radius
-  /// `contact_distance` about the point, with the direction in which each leaves it; a sector is free if neither bound turns the
-  /// inside of a solid to it and its middle is not inside another. A surface alone leaves 2π free.
+  /// The free sectors of more than `least` rad at `t`, ascending. Their bounds are the surfaces that cross the circle
+  /// of radius `contact_distance` about the point, with the direction in which each leaves it; a sector is free if
+  /// neither bound turns the inside of a solid to it and its middle is not inside another. A surface alone leaves 2π
+  /// free.
   void find_sectors(double t, double least, std::vector<Sector>& sectors) const;
 
  private:

@@ -19,9 +19,10 @@ struct Stretch {
   std::vector<std::uint32_t> triangles;  ///< that bound them anywhere along it
 };
 
-/// The stretches of an edge, from 0 to its length. Where only the edge's own surfaces are near one sample decides; else samples lie at most 0.5 m
-/// apart and in every interval between `breaks`, a change is narrowed to 1 mm and put on a break within 1 mm.
-/// Stretches shorter than 25 mm (what a surface that merely crosses the edge leaves) go to their longer neighbour.
+/// The stretches of an edge, from 0 to its length. Where only the edge's own surfaces are near one sample decides; else
+/// samples lie at most 0.5 m apart and in every interval between `breaks`, a change is narrowed to 1 mm and put on a
+/// break within 1 mm. Stretches shorter than 25 mm (what a surface that merely crosses the edge leaves) go to their
+/// longer neighbour.
 std::vector<Stretch> find_stretches(EdgeSection& section, const Patches& patches);
 
 }  // namespace grimaldi

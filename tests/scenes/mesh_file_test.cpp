@@ -233,11 +233,17 @@ TEST_F(MeshFile, HostileGltf) {
   refused("h.gltf", replaced(good, R"("count": 3, "type": "VEC3")", R"("count": -3, "type": "VEC3")"), "whole number");
   refused("i.gltf", gltf(R"({"children": [0]})"), "contain themselves");
   refused("j.gltf", gltf(R"({"children": [1, 1]}, {"mesh": 0})"), "two parents");
-  refused("n.gltf", replaced(good, R"("POSITION": 0)", R"("POSITION": 0, "NORMAL": 1)"), "another length");
+  std::string uneven = replaced(good, R"(5123, "count": 3, "type": "SCALAR")", R"(5121, "count": 4, "type": "SCALAR")");
+  refused("r.gltf", uneven, "no whole shapes");
+  for (int mode = 4; mode <= 7; ++mode) {  // two corners make no triangle
+    std::string two = replaced(good, R"(5123, "count": 3)", R"(5123, "count": 2)");
+    refused("s.gltf", replaced(two, R"("indices": 1)", R"("indices": 1, "mode": )" + std::to_string(mode)),
+            "primitive");
+  }
   refused("o.gltf", replaced(good, R"("POSITION": 0}, "indices": 1)", R"("POSITION": 0}, "indices": 0)"), "indices");
   refused("p.gltf", replaced(good, R"(5126, "count": 3, "type": "VEC3")", R"(5123, "count": 3, "type": "VEC3")"),
           "three floats");
-  refused("q.gltf", replaced(good, R"("asset")", R"("skins": [{"joints": [0]}], "asset")"), "skinned");
+  refused("q.gltf", gltf(R"({"mesh": 0, "skin": 0})"), "skinned");
   refused("k.gltf", replaced(good, R"("POSITION": 0)", R"("POSITION": 9)"), "accessor 9");
   std::string chain = R"({"children": [1]})";
   for (int i = 2; i < 100000; ++i) chain += R"(, {"children": [)" + std::to_string(i) + "]}";
@@ -251,11 +257,11 @@ TEST_F(MeshFile, GltfIndexOutOfRange) {
   for (int i = 0; i < 9; ++i) bytes += bytes_of(float(i));
   for (const std::uint16_t index : {0, 1, 2, 0}) bytes += bytes_of(index);
   std::string wrong = bytes;
-  wrong[40] = 77;  // the third index
+  wrong[40] = 77;  // the third index, low byte
   std::string text = gltf(R"({"mesh": 0})");
   const std::size_t at = text.find("base64,") + 7;
   text.replace(at, base64(bytes).size(), base64(wrong));
-  refused("index.gltf", text, "");
+  refused("index.gltf", text, "index 2 is 77, the primitive has 3 vertices");
 }
 
 // Comments behind a face, indented and joined lines, an mtllib that is no material library.

@@ -64,8 +64,8 @@ TEST(MeshRepair, DropsDegenerateTriangles) {
   MeshDescription mesh = box({0, 0, 0}, {1, 1, 1});
   const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), {{0, 0, 0.005}, {0.5, 0.5, 1}, {0.25, 0.25, 1 + 5e-7}});
-  mesh.triangles.push_back({0, n, n + 1});       // two corners 5 mm apart
-  mesh.triangles.push_back({n + 1, n + 1, 1});   // one corner twice
+  mesh.triangles.push_back({0, n, n + 1});      // two corners 5 mm apart
+  mesh.triangles.push_back({n + 1, n + 1, 1});  // one corner twice
   mesh.vertices.push_back({0, 0, 1});
   mesh.triangles.push_back({n + 3, n + 1, n + 2});  // three corners on a line to 0.5 µm
   const RepairedMesh repaired = repair(scene({mesh}));

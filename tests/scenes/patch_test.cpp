@@ -80,15 +80,15 @@ TEST(Patch, CuttingTrianglesInFourChangesNothing) {
 }
 
 TEST(Patch, TouchingAndOverlappingCoplanarSurfacesAreOne) {
-  EXPECT_EQ(find(two_squares({10, 0, 0})).patches.patches.size(), 1u);         // side by side
-  EXPECT_EQ(find(two_squares({3.3, 4.4, 0})).patches.patches.size(), 1u);      // overlapping, no vertex shared
-  EXPECT_EQ(find(two_squares({10, 5, 0})).patches.patches.size(), 1u);         // along a part of one side
-  EXPECT_EQ(find(two_squares({10.0005, 5, 0})).patches.patches.size(), 1u);    // 0.5 mm apart
-  EXPECT_EQ(find(two_squares({3, 4, 0.0009})).patches.patches.size(), 1u);     // laid upon each other
-  EXPECT_EQ(find(two_squares({10.0015, 5, 0})).patches.patches.size(), 2u);    // 1.5 mm apart
-  EXPECT_EQ(find(two_squares({3, 4, 0.0011})).patches.patches.size(), 2u);     // another plane
-  EXPECT_EQ(find(two_squares({3, 4, 0}, 0.1)).patches.patches.size(), 2u);     // 10 m × tan 0.1° = 17 mm out of the plane
-  EXPECT_EQ(find(two_squares({10, 0, 0}, 0.3)).patches.patches.size(), 2u);    // a ridge
+  EXPECT_EQ(find(two_squares({10, 0, 0})).patches.patches.size(), 1u);       // side by side
+  EXPECT_EQ(find(two_squares({3.3, 4.4, 0})).patches.patches.size(), 1u);    // overlapping, no vertex shared
+  EXPECT_EQ(find(two_squares({10, 5, 0})).patches.patches.size(), 1u);       // along a part of one side
+  EXPECT_EQ(find(two_squares({10.0005, 5, 0})).patches.patches.size(), 1u);  // 0.5 mm apart
+  EXPECT_EQ(find(two_squares({3, 4, 0.0009})).patches.patches.size(), 1u);   // laid upon each other
+  EXPECT_EQ(find(two_squares({10.0015, 5, 0})).patches.patches.size(), 2u);  // 1.5 mm apart
+  EXPECT_EQ(find(two_squares({3, 4, 0.0011})).patches.patches.size(), 2u);   // another plane
+  EXPECT_EQ(find(two_squares({3, 4, 0}, 0.1)).patches.patches.size(), 2u);  // 10 m × tan 0.1° = 17 mm out of the plane
+  EXPECT_EQ(find(two_squares({10, 0, 0}, 0.3)).patches.patches.size(), 2u);  // a ridge
 }
 
 TEST(Patch, MaterialsAreKeptApartAndBothWindingsGoTogether) {

@@ -14,7 +14,8 @@ using solids::box;
 using solids::scene;
 
 const Material& material_of(const Scene& s, const std::string& name) {
-  const auto found = std::find_if(s.materials.begin(), s.materials.end(), [&](const Material& m) { return m.name == name; });
+  const auto found =
+      std::find_if(s.materials.begin(), s.materials.end(), [&](const Material& m) { return m.name == name; });
   EXPECT_NE(found, s.materials.end()) << name;
   return found == s.materials.end() ? s.materials.front() : *found;
 }
@@ -26,8 +27,8 @@ std::string messages(const Diagnostics& diagnostics) {
 }
 
 SceneDescription street() {
-  return scene({solids::ground(50, -2), box({0, 0, -2}, {10, 10, 10}, true, "glass"), box({20, 0, -2}, {30, 10, 7}, false, "brick"),
-                box({0, 20, -2}, {10, 30, 7}, false, "glass")});
+  return scene({solids::ground(50, -2), box({0, 0, -2}, {10, 10, 10}, true, "glass"),
+                box({20, 0, -2}, {30, 10, 7}, false, "brick"), box({0, 20, -2}, {10, 30, 7}, false, "glass")});
 }
 
 TEST(Scene, IsCompleteAndConsistent) {
@@ -48,7 +49,8 @@ TEST(Scene, IsCompleteAndConsistent) {
   EXPECT_EQ(s.wedges.wedges.size(), 3u * 8u);
   // The ground, not the floor of the house that has one.
   ASSERT_EQ(s.triangle_is_ground.size(), s.triangles.size());
-  for (std::size_t t = 0; t < s.triangles.size(); ++t) EXPECT_EQ(s.triangle_is_ground[t] != 0, s.triangle_material[t] == 0);
+  for (std::size_t t = 0; t < s.triangles.size(); ++t)
+    EXPECT_EQ(s.triangle_is_ground[t] != 0, s.triangle_material[t] == 0);
 }
 
 TEST(Scene, FingerprintTellsScenesApart) {
@@ -157,7 +159,8 @@ TEST(Scene, DefectsAreReportedWithTheirCounts) {
   const std::string text = messages(diagnostics);
   for (const std::string& part :
        {std::to_string(s.defects.degenerate) + " degenerate", std::to_string(s.defects.duplicate) + " duplicate",
-        std::to_string(s.defects.holes) + " open rims", std::to_string(s.defects.flipped) + " triangles turned round"}) {
+        std::to_string(s.defects.holes) + " open rims",
+        std::to_string(s.defects.flipped) + " triangles turned round"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
   }
 }

@@ -62,7 +62,8 @@ inline MeshDescription prism(const Ring& ring, double low, double high, bool flo
   return mesh;
 }
 
-inline MeshDescription box(const Vec3& low, const Vec3& high, bool floor = true, const std::string& material = "concrete") {
+inline MeshDescription box(const Vec3& low, const Vec3& high, bool floor = true,
+                           const std::string& material = "concrete") {
   return prism(rectangle(low.x, low.y, high.x, high.y), low.z, high.z, floor, 0, material);
 }
 

@@ -1,4 +1,4 @@
-#include "scenes/obj_text.h"
+#include "scenes/plain_obj.h"
 
 #include <algorithm>
 #include <array>
