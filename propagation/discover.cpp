@@ -38,7 +38,7 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 /// What one block of beams found; distinct within the block.
 struct BlockRecords {
   SequenceTable sequences;
-  std::vector<std::uint64_t> seeds;  ///< sequence << 32 | cell
+  std::vector<Seed> seeds;           ///< sequences numbered within the block
   FluxLedger flux;
   std::uint64_t segments = 0;
 };
@@ -92,7 +92,8 @@ class KeySet {
 class Walker {
  public:
   Walker(const Scene& scene, const Tracer& tracer, const Plan& plan, const ReflectanceTable& reflectance)
-      : scene_(scene), tracer_(tracer), plan_(plan), reflectance_(reflectance), keep_all_(!plan.request.receivers.empty()) {}
+      : scene_(scene), tracer_(tracer), plan_(plan), reflectance_(reflectance), keep_all_(!plan.request.receivers.empty()),
+        far_(2 * distance(scene.low, scene.high) + double(plan.grid.nx + plan.grid.ny) * plan.grid.cell) {}
 
   void begin_block(double spacing, BlockRecords& records) {
     spacing_ = spacing;
@@ -104,6 +105,7 @@ class Walker {
   void walk(const Vec3& origin, const Vec3& direction, std::uint64_t beam_number) {
     beam_number_ = beam_number;
     draws_ = 0;
+    seed_draw_ = beam_number;
     Beam beam;
     beam.origin = origin;
     beam.direction = direction;
@@ -122,7 +124,7 @@ class Walker {
     for (;;) {
       const Hit hit = tracer_.nearest(beam.origin, beam.direction, beam.leave0, beam.leave1);
       ++records_->segments;
-      record_crossing(beam, hit);
+      record_cells(beam, hit);
       if (hit.triangle == no_index) {
         records_->flux.escaped += beam.power;
         return;
@@ -162,19 +164,37 @@ class Walker {
     return records_->sequences.enter(beam.hash, {beam.interactions.data(), beam.depth});
   }
 
-  void record_crossing(const Beam& beam, const Hit& hit) {
+  void record_cells(const Beam& beam, const Hit& hit) {
     const GridLayout& grid = plan_.grid;
     if (grid.nx == 0 || beam.depth == 0) return;  // the direct wave asks every cell
+    const double end = hit.triangle != no_index ? hit.distance : far_;
     const double rise = grid.z - beam.origin.z;
-    if (rise * beam.direction.z <= 0) return;
-    const double t = rise / beam.direction.z;
-    if (hit.triangle != no_index && t >= hit.distance) return;
+    if (rise * beam.direction.z > 0 && rise / beam.direction.z < end) record_cell(beam, rise / beam.direction.z, true);
+    // A draw from the beam's own number and direction: one cell under the segment.
+    seed_draw_ = (seed_draw_ + beam.hash) * 0x9e3779b97f4a7c15u;
+    double from = 0, to = end;
+    if (clip(beam.origin.x - grid.x0, beam.direction.x, double(grid.nx) * grid.cell, from, to) &&
+        clip(beam.origin.y - grid.y0, beam.direction.y, double(grid.ny) * grid.cell, from, to))
+      record_cell(beam, from + double(seed_draw_ >> 11) * 0x1p-53 * (to - from), false);
+  }
+
+  /// Cuts [from, to] to where 0 ≤ origin + t direction ≤ size. False if nothing is left.
+  static bool clip(double origin, double direction, double size, double& from, double& to) {
+    if (direction == 0) return origin >= 0 && origin <= size;
+    const double a = -origin / direction, b = (size - origin) / direction;
+    from = std::max(from, std::min(a, b));
+    to = std::min(to, std::max(a, b));
+    return from < to;
+  }
+
+  void record_cell(const Beam& beam, double t, bool crossed) {
+    const GridLayout& grid = plan_.grid;
     const double x = (beam.origin.x + t * beam.direction.x - grid.x0) / grid.cell;
     const double y = (beam.origin.y + t * beam.direction.y - grid.y0) / grid.cell;
     if (!(x >= 0 && y >= 0 && x < double(grid.nx) && y < double(grid.ny))) return;
     const std::uint64_t cell = std::uint64_t(y) * grid.nx + std::uint64_t(x);
-    if (!keys_.insert(beam.hash ^ (cell * 0xd6e8feb86659fd93u))) return;
-    records_->seeds.push_back(std::uint64_t(keep(beam)) << 32 | cell);
+    if (!keys_.insert(beam.hash ^ ((2 * cell + crossed) * 0xd6e8feb86659fd93u))) return;
+    records_->seeds.push_back({keep(beam), static_cast<std::uint32_t>(cell), 0, crossed});
   }
 
   /// Beams leave those edges of the hit triangle that lie in the footprint.
@@ -205,8 +225,9 @@ class Walker {
     const double sin_beta = std::sqrt(std::max(0.0, 1 - cos_beta * cos_beta));
     if (sin_beta < 1e-3) return;  // along the edge: no cone
     double phi_in = std::atan2(-dot(incident, wedge.normal0), -dot(incident, wedge.along0));
-    if (phi_in < 0) phi_in += 2 * pi;
-    if (phi_in > wedge.exterior_angle) return;  // the wave comes through the solid
+    constexpr double rounding = 1e-9;  // of a source that lies in the plane of a face
+    if (phi_in < -rounding) phi_in += 2 * pi;
+    if (phi_in > wedge.exterior_angle + rounding) return;  // the wave comes through the solid
     Beam child;
     const double half = 0.5 * wedge.exterior_angle;
     child.origin = edge_point + 3 * tracer_.surface_gap() * (std::cos(half) * wedge.along0 + std::sin(half) * wedge.normal0);
@@ -251,12 +272,14 @@ class Walker {
   const Plan& plan_;
   const ReflectanceTable& reflectance_;
   const bool keep_all_;
+  const double far_;  ///< beyond everything, m
   double spacing_ = 0;
   BlockRecords* records_ = nullptr;
   KeySet keys_;
   std::vector<Beam> pending_;
   std::uint64_t beam_number_ = 0;
   std::uint32_t draws_ = 0;
+  std::uint64_t seed_draw_ = 0;
 };
 
 /// Unites the records of one block with what there is.
@@ -267,8 +290,7 @@ void merge(const BlockRecords& block, std::uint32_t pass_bit, Discovered& all) {
     if (number[i] >= all.found.size()) all.found.resize(number[i] + 1, 0);
     all.found[number[i]] |= pass_bit;
   }
-  for (const std::uint64_t seed : block.seeds)
-    all.seeds.push_back({number[seed >> 32], static_cast<std::uint32_t>(seed), pass_bit});
+  for (const Seed& seed : block.seeds) all.seeds.push_back({number[seed.sequence], seed.cell, pass_bit, seed.crossed});
   all.segments += block.segments;
   all.flux.launched += block.flux.launched;
   all.flux.absorbed += block.flux.absorbed;
@@ -284,7 +306,7 @@ void unite_seeds(std::vector<Seed>& seeds) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     if (kept > 0 && seeds[kept - 1].sequence == seeds[i].sequence && seeds[kept - 1].cell == seeds[i].cell)
-      seeds[kept - 1].passes |= seeds[i].passes;
+      seeds[kept - 1].passes |= seeds[i].passes, seeds[kept - 1].crossed |= seeds[i].crossed;
     else
       seeds[kept++] = seeds[i];
   }

@@ -13,9 +13,10 @@
 
 namespace grimaldi {
 
-/// A cell that a beam of the sequence crossed, with the passes (bits) in which that happened.
+/// A cell that a sequence may reach, with the passes (bits) in which a beam said so.
 struct Seed {
   std::uint32_t sequence, cell, passes;
+  bool crossed;  ///< a beam of the sequence crossed the cell; else one passed over or under it
 };
 
 struct Discovered {
@@ -30,7 +31,8 @@ struct Discovered {
 /// Launches the plan's rays from transmitter `transmitter` in plan.request.passes passes. A beam reflects at every face up to the depth; where it hits within
 /// its footprint (¾ of the spacing of the pass's beams at its length) of an edge, one more beam leaves the edge's nearest point on the
 /// Keller cone, its azimuth drawn half uniformly over the exterior and half close to the shadow and reflection boundaries, and
-/// goes on in the same way. Only which sequences are found depends on these choices, never how strong they are.
+/// goes on in the same way. A segment of a beam names the cell that it crosses and one cell, drawn at random, over or under which it passes: a wave that leaves a
+/// wall or an upright edge at one height leaves it at others too. Only which sequences are found depends on these choices, never how strong they are.
 /// Every sequence met is entered if the plan has receivers, else those that lit a cell.
 /// `progress` is told the share done. Ends early when `stop` is set.
 Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,

@@ -58,7 +58,7 @@ class Grower {
         const Seed* here = std::lower_bound(seed, last, cell, [](const Seed& s, std::uint32_t c) { return s.cell < c; });
         // A seed at whose cell nothing arrives (a sliver between the sub-points) still lets its neighbours be asked.
         const bool is_seed = here != last && here->cell == cell;
-        if (!arrives && !(is_seed && answer == Answer::blocked)) continue;
+        if (!arrives && !(is_seed && here->crossed && answer == Answer::blocked)) continue;
         if (arrives) out.pairs.push_back(pair);
         if (is_seed) passes |= here->passes;
         ask_neighbours(cell, work);

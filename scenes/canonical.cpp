@@ -176,9 +176,7 @@ const Entry* find_entry(const std::string& name) {
 }
 
 /// The shortest text that reads back as the same number.
-std::string text(double value) {
-  return fmt::format("{}", value);
-}
+std::string text(double value) { return fmt::format("{}", value); }
 
 void check_value(const std::string& option, const CanonicalParameter& parameter, double value,
                  Diagnostics& diagnostics) {
@@ -205,12 +203,11 @@ Values checked_values(const Entry& entry, const CanonicalParameters& given, Diag
     known.emplace_back(parameter.name);
   }
   for (const auto& [key, value] : given) {
-    const std::string option = entry.name + "." + key;
+    const std::string option = "scene.parameters." + key;
     const auto parameter = std::find_if(entry.parameters.begin(), entry.parameters.end(),
                                         [&](const CanonicalParameter& p) { return p.name == key; });
     if (parameter == entry.parameters.end()) {
-      diagnostics.error({}, 0, option, "unknown parameter",
-                        known.empty() ? "the built-in scene " + entry.name + " takes no parameters" : std::string{},
+      diagnostics.error({}, 0, option, "unknown parameter of " + entry.name, known.empty() ? "it takes none" : "",
                         known.empty() ? "leave it out" : did_you_mean(key, known));
     } else {
       check_value(option, *parameter, value, diagnostics);
@@ -242,7 +239,8 @@ SceneDescription canonical_scene(const std::string& name, const CanonicalParamet
   scene.name = name;
   const Entry* entry = find_entry(name);
   if (!entry) {
-    diagnostics.error({}, 0, {}, "unknown built-in scene \"" + name + "\"", {}, did_you_mean(name, canonical_names()));
+    diagnostics.error({}, 0, "scene.builtin", "unknown built-in scene \"" + name + "\"", {},
+                      did_you_mean(name, canonical_names()));
     return scene;
   }
   Diagnostics own;

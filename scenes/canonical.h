@@ -60,24 +60,20 @@ std::vector<CanonicalParameter> canonical_parameters(const std::string& name);
 /// faces of the wedge apart from one patch (0.2°). 174.9° keeps its exterior angle above 185°, where an edge counts as
 /// diffracting.
 ///
-/// half-plane     Metal. Screen in the plane x = 0, z ≤ 0, normal +x. Its one edge is x = z = 0; the two sides and the
-/// bottom
-///                are artificial.
+/// half-plane     Metal. Screen in the plane x = 0, z ≤ 0, normal +x. Its one edge is x = z = 0; the two sides and
+///                the bottom are artificial.
 /// strip          Metal. Screen in x = 0, normal +x. Its edges are z = ±width/2; the two ends are artificial.
-/// slit           Metal. Two screens in x = 0, normal +x, −depth − width/2 ≤ z ≤ −width/2 and mirrored. Their edges are
-///                z = ±width/2; the ends and the outer edges are artificial.
-/// wedge          Metal. Closed solid with outward normals, symmetric about the plane x = 0, its edge x = z = 0 the
-/// top; the
-///                base lies at z = −depth cos(interior_angle/2). All edges but the top are artificial.
-/// box            Concrete. Closed room, six faces with normals inward; if thick > 0 an outer shell with normals
-/// outward at that
-///                distance. All edges are artificial. (`repair` turns a closed surface outward: the normals count in
-///                this description only.)
-/// street-canyon  Two rows of box buildings on either side of a street along x, centred on the origin, on a ground at z
-/// = 0.
-///                Ground concrete, walls brick, roofs metal; a mesh of walls and one of the roof for each building,
-///                named "north 1 walls" … from west to east. Buildings have no floor; the rim of the ground is
-///                artificial.
+/// slit           Metal. Two screens in x = 0, normal +x: −depth − width/2 ≤ z ≤ −width/2 and its mirror image. Their
+///                edges are z = ±width/2; the ends and the outer edges are artificial.
+/// wedge          Metal. Closed solid with outward normals, symmetric about the plane x = 0; its edge x = z = 0 is the
+///                top, its base lies at z = −depth cos(interior_angle/2). All edges but the top are artificial.
+/// box            Concrete. Closed room, six faces with normals inward; if thick > 0 an outer shell at that distance,
+///                normals outward. All edges are artificial. (`repair` turns every closed surface outward: the inward
+///                normals are in this description only.)
+/// street-canyon  Two rows of box buildings on either side of a street along x, centred on the origin, on a ground at
+///                z = 0. Ground concrete, walls brick, roofs metal; for each building a mesh of walls and one of the
+///                roof, "north 1 walls", "north 1 roof" … from west to east. Buildings have outward normals and no
+///                floor; the rim of the ground is artificial.
 ///
 /// Screens and the faces of the wedge are cut into pieces of at most 200 m both ways, with a vertex at the origin
 /// (half-plane, wedge), so that single-precision ray tracers stay within 200 m × 2⁻²⁴ = 12 µm near it; the base and the

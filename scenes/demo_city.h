@@ -11,21 +11,19 @@ namespace grimaldi {
 
 /// An invented quarter on 600 m × 600 m, |x|, |y| ≤ 300, x east, y north, ground at z = 0 that reaches 50 m beyond:
 ///
-/// * Blocks A … F from west to east, 1 … 6 from south to north, of 52 to 124 m a side; streets of 12 m and more between
-/// them.
-/// * A square of 80 m, |x|, |y| < 40, free of buildings; a town hall (D4) on its north, a tower of 90 m (E2) at its
-/// south-east corner.
+/// * Blocks A … F from west to east, 1 … 6 from south to north, 52 to 124 m a side; streets of 12 m and more between.
+/// * A square of 80 m, |x|, |y| < 40, free of buildings: a town hall (D4) on its north, a tower of 90 m (E2) at its
+///   south-east corner.
 /// * An avenue of 24 m, |4 y − 3 x| < 60, cuts the grid from south-west to north-east through the square.
-/// * A street canyon along y at x = 234, y −294 … −176 and −160 … −40: 12 m wide between houses of 25 m (F1, F2).
-/// * Closed courtyards (B4, C5, D5 and most blocks along the avenue), courtyards reached by a passage of 6 m (C4, E5,
-/// D2),
-///   L- and U-shapes, rows with gabled roofs (A5, A6, E1, …).
-/// * Eaves at 8 … 38 m by an integer hash of the building's number, higher near the square; the tower alone is higher.
+/// * A street canyon along y, 228 < x < 240, between houses of 25 m on either side, 118 m and 120 m long (F1, F2).
+/// * Closed courtyards (A3, B4, C5, D5, B6, and along the avenue), courtyards reached by a passage of 6 m (C1, C4, D1,
+///   D2, E1, E5, F3), L- and U-shapes, rows of houses with gabled roofs (A5, A6, E1, F1, F2).
+/// * Eaves at 8 … 32 m by an integer hash of the building's number, higher near the square; the tower alone is higher.
 ///
-/// Meshes: "ground" (concrete), then for each building "NAME walls" (brick, concrete, marble, glass or wood) and "NAME
-/// roof" (concrete or metal). NAME begins with the block, e.g. "B5 2". Buildings have outward normals and no floor; no
-/// two touch: at least 3 m lie between the walls of any two, at least 12 m between those of different blocks. The rim
-/// of the ground is artificial.
+/// Meshes: "ground" (concrete), then for each building "NAME walls" (brick, concrete, marble, glass or wood) and
+/// "NAME roof" (concrete or metal). NAME is the block and a number, e.g. "B5 2". Buildings have outward normals and no
+/// floor; at least 3 m lie between any two, at least 12 m between those of different blocks. The rim of the ground is
+/// artificial.
 ///
 /// Arithmetic is +, −, ×, ÷ and square root of doubles alone, which IEEE 754 fixes to the last bit.
 SceneDescription demo_city();

@@ -68,14 +68,23 @@ class WedgeSearch {
   const WedgeReport& report() const { return report_; }
 
  private:
-  static bool is_rim(const Sector& s) { return s.triangle0 == s.trianglen && s.angle() > 2 * pi - same_angle; }
+  bool is_rim(const Edge& edge, const Sector& s) const {
+    return edge.valence() == 1 && s.angle() > 2 * pi - same_angle &&
+           patches_.triangle_patch[s.triangle0] == patches_.triangle_patch[s.trianglen];
+  }
 
   /// What of the edge lies on no other surface, whether or not it is inside a solid.
   void count_rim(const EdgeSection& section) {
+    constexpr double step = 0.5;  // m
     double length = 0;
     const auto& breaks = section.breaks();
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
-      if (!section.has_others(0.5 * (breaks[i] + breaks[i + 1]))) length += breaks[i + 1] - breaks[i];
+      const double size = breaks[i + 1] - breaks[i];
+      const bool alone = !section.has_others(0.5 * (breaks[i] + breaks[i + 1]));
+      const double parts = alone ? 1 : std::ceil(size / step);
+      for (double k = 0; k < parts; ++k) {
+        if (alone || section.is_one_sided(breaks[i] + size * ((k + 0.5) / parts), same_angle)) length += size / parts;
+      }
     }
     if (length > 0) add(report_.free_rims, length);
   }
@@ -109,7 +118,7 @@ class WedgeSearch {
         w.materialn = material_[sector.trianglen];
         w.vertex_start = i == 0 ? edge.vertex0 : no_index;
         w.vertex_end = i + 1 == stretches.size() ? edge.vertex1 : no_index;
-        w.free_rim = is_rim(sector);
+        w.free_rim = is_rim(edge, sector);
         piece.triangles = stretch.triangles;
         for (std::uint32_t u = edge.begin; u < edge.end; ++u) piece.triangles.push_back(table_.uses[u].triangle);
         pieces_.push_back(std::move(piece));

@@ -171,15 +171,25 @@ void EdgeSection::add_crossings(double t, std::uint32_t triangle, std::vector<Fa
   }
 }
 
-void EdgeSection::find_sectors(double t, double least, std::vector<Sector>& sectors) const {
-  thread_local std::vector<Face> faces;
-  faces = own_;
+std::vector<EdgeSection::Face> EdgeSection::faces_at(double t) const {
+  std::vector<Face> faces = own_;
   for (Face& face : faces) {
     if (face.place > 2 * pi - same_place) face.place -= 2 * pi, face.direction -= 2 * pi;
   }
   for (const Neighbour& n : neighbours_) {
     if (n.from <= t && t <= n.to) add_crossings(t, n.triangle, faces);
   }
+  return faces;
+}
+
+bool EdgeSection::is_one_sided(double t, double tolerance) const {
+  const std::vector<Face> faces = faces_at(t);
+  return std::all_of(faces.begin(), faces.end(),
+                     [&](const Face& f) { return std::abs(near_to(f.direction, 0)) < tolerance; });
+}
+
+void EdgeSection::find_sectors(double t, double least, std::vector<Sector>& sectors) const {
+  std::vector<Face> faces = faces_at(t);
   std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) {
     return a.place != b.place ? a.place < b.place : a.triangle < b.triangle;
   });

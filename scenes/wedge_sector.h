@@ -39,6 +39,9 @@ class EdgeSection {
   const std::vector<double>& breaks() const { return breaks_; }
   /// True if surfaces other than the edge's own are near at `t` m from the start.
   bool has_others(double t) const;
+  /// True if all surfaces that touch the edge at `t` leave it in the direction of its first triangle, within
+  /// `tolerance` rad.
+  bool is_one_sided(double t, double tolerance) const;
   /// The free sectors of more than `least` rad at `t`, ascending. Their bounds are the surfaces that cross the circle
   /// of radius `contact_distance` about the point, with the direction in which each leaves it; a sector is free if
   /// neither bound turns the inside of a solid to it and its middle is not inside another. A surface alone leaves 2π
@@ -59,6 +62,7 @@ class EdgeSection {
   };
   Vec3 in_frame(const Vec3& point) const;
   Face make_face(double place, double direction, std::uint32_t triangle) const;
+  std::vector<Face> faces_at(double t) const;
   void add_crossings(double t, std::uint32_t triangle, std::vector<Face>& faces) const;
 
   const Surroundings& surroundings_;

@@ -277,6 +277,20 @@ TEST(Wedge, AScreenOnTheGroundHasThreeRims) {
   EXPECT_NEAR(find(scene({plate})).report().propagating.length, 14, 1e-12);
 }
 
+TEST(Wedge, ARimRunsOnOverNarrowTriangles) {
+  // Slopes of 1:200 bring the neighbours of a triangle within contact of its rim for 2 m; they lie in the same plane.
+  MeshDescription strip = solids::empty_mesh("wood");
+  for (int i = 0; i < 5; ++i) {
+    solids::add_quad(strip, {0, 200.0 * i, 0}, {0, 200.0 * (i + 1), 0}, {0, 200.0 * (i + 1), 1}, {0, 200.0 * i, 1});
+  }
+  const Found found = find(scene({strip}));
+  expect_sound(found);
+  EXPECT_NEAR(found.report().free_rims.length, 2002, 1e-9);
+  ASSERT_EQ(found.wedges.wedges.size(), 4u);
+  for (const Wedge& w : found.wedges.wedges) EXPECT_TRUE(w.free_rim);
+  EXPECT_NEAR(found.report().propagating.length, 2002, 1e-9);
+}
+
 TEST(Wedge, AFoldedScreenDiffractsOnItsOuterSideWhicheverWayItIsWound) {
   for (const bool reversed : {false, true}) {
     MeshDescription screen = solids::empty_mesh("wood");
