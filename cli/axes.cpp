@@ -101,8 +101,8 @@ Colour colour_of(double value, const ValueRange& range) {
 }
 
 Ticks axis_ticks(const ValueRange& range, double length, double size, bool side_by_side) {
-  // Not nearer than a reader needs: 90 px across, 60 px up, for type of 22 px.
-  int most = std::max(2, int(length / (side_by_side ? 4.1 * size : 2.7 * size)));
+  // Not nearer than a reader needs: 90 px across, 70 px up, for type of 22 px.
+  int most = std::max(3, int(length / (side_by_side ? 4.1 * size : 3.2 * size)));
   for (;; --most) {
     Ticks ticks = round_ticks(range, most);
     const double apart = length * ticks.step / (range.high - range.low);
@@ -111,13 +111,9 @@ Ticks axis_ticks(const ValueRange& range, double length, double size, bool side_
   }
 }
 
-double y_axis_width(const Ticks& ticks, double size) {
-  return widest(ticks, size) + (tick_length + 2.1) * size;
-}
+double y_axis_width(const Ticks& ticks, double size) { return widest(ticks, size) + (tick_length + 2.1) * size; }
 
-double x_axis_height(double size) {
-  return (tick_length + 3.0) * size;
-}
+double x_axis_height(double size) { return (tick_length + 3.0) * size; }
 
 void draw_x_axis(Canvas& canvas, const PlotBox& panel, const ValueRange& range, const Ticks& ticks,
                  const std::string& name, double size) {
@@ -133,14 +129,17 @@ void draw_x_axis(Canvas& canvas, const PlotBox& panel, const ValueRange& range, 
 }
 
 void draw_y_axis(Canvas& canvas, const PlotBox& panel, const ValueRange& range, const Ticks& ticks,
-                 const std::string& name, double size) {
+                 const std::string& name, const std::string& short_name, double size) {
   for (const double value : ticks.at) {
     const double y = panel.bottom - panel.height() * (value - range.low) / (range.high - range.low);
     const double line = std::clamp(std::round(y), panel.top, panel.bottom);
     canvas.line({panel.left - tick_length * size, line}, {panel.left, line}, black, size / 11);
     canvas.text({panel.left - (tick_length + 0.3) * size, y}, tick_text(value, ticks.step), {.size = size}, Align::end);
   }
-  canvas.text({panel.left - y_axis_width(ticks, size) + 0.6 * size, (panel.top + panel.bottom) / 2}, name,
+  // A name longer than the panel would run into the labels of the x axis.
+  const std::string& fitting = text_width(name, size) <= panel.height() ? name : short_name;
+  if (text_width(fitting, size) > panel.height()) return;
+  canvas.text({panel.left - y_axis_width(ticks, size) + 0.6 * size, (panel.top + panel.bottom) / 2}, fitting,
               {.size = size, .upwards = true}, Align::middle);
 }
 

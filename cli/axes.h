@@ -48,11 +48,12 @@ double y_axis_width(const Ticks& ticks, double size);
 /// Height that draw_x_axis needs below the panel, px.
 double x_axis_height(double size);
 
-/// Ticks, their labels and the axis's name, outside `panel`.
+/// Ticks, their labels and the axis's name, outside `panel`. Where `name` is longer than the y axis its short form
+/// stands, or nothing.
 void draw_x_axis(Canvas& canvas, const PlotBox& panel, const ValueRange& range, const Ticks& ticks,
                  const std::string& name, double size);
 void draw_y_axis(Canvas& canvas, const PlotBox& panel, const ValueRange& range, const Ticks& ticks,
-                 const std::string& name, double size);
+                 const std::string& name, const std::string& short_name, double size);
 
 /// A bar of the scale of colour_of with ticks and a name: upright (ticks to its right) if it is higher than wide, else
 /// lying (ticks below). `below` and `above` add a point at an end: there are values beyond it. The points lie within

@@ -23,7 +23,7 @@ constexpr Colour transmitter_colour{214, 39, 40}, receiver_colour{255, 255, 255}
 constexpr double widest_panel = 1250, highest_panel = 1150;  ///< aimed at, px
 constexpr int most_pixels = 3000;                            ///< a side of the panel, px
 constexpr double least_content = 1150;                       ///< room that the title needs, px
-constexpr double outer_margin = 36, bar_width = 34, bar_gap = 30, name_clearance = 17;
+constexpr double outer_margin = 36, bar_width = 34, least_bar_gap = 30, name_clearance = 17;
 
 /// What is shown of each cell, and how many there are of each sort.
 struct Shown {
@@ -158,6 +158,8 @@ struct Layout {
   int width = 0, height = 0;
   MapFrame frame;
   bool upright_bar = true;
+  double bar_gap = 0;  ///< between the panel and an upright bar; names find room in it where the panel is narrow
+  double title_type = 0;
   double text_left = 0, text_width = 0;
   double legend_top = 0, bar_top = 0;
   Ticks x_ticks, y_ticks;
@@ -215,8 +217,13 @@ Layout make_layout(const Scene& scene, const Plan& plan, const Result& result, c
 
   const double axis_width = y_axis_width(layout.y_ticks, size);
   double group = axis_width + columns;
-  if (layout.upright_bar && shown.reached > 0)
-    group += (bar_gap + bar_width) * u + colour_bar_margin(shown.scale, rows, size);
+  layout.bar_gap = (least_bar_gap + (columns < 500 * u ? 240 : 0)) * u;
+  if (layout.upright_bar && shown.reached > 0) {
+    group += layout.bar_gap + bar_width * u + colour_bar_margin(shown.scale, rows, size);
+  } else if (!layout.x_ticks.at.empty()) {
+    // The last label may stand out by half.
+    group += text_width(tick_text(layout.x_ticks.at.back(), layout.x_ticks.step), size) / 2;
+  }
   const double content = std::max(group, least_content * u);
   layout.width = int(std::ceil(content + 2 * outer_margin * u));
   layout.frame.left = int(std::lround(outer_margin * u + (content - group) / 2 + axis_width));
@@ -227,11 +234,18 @@ Layout make_layout(const Scene& scene, const Plan& plan, const Result& result, c
   std::vector<std::string> first{scene_words(scene), quantity.name + " at " + band_words(plan),
                                  transmitter_words(plan)};
   if (result.interrupted) first.push_back("interrupted run");
+  std::erase(first, std::string());
   std::vector<std::string> second = method_words(plan);
   const double height = plan.request.coverage ? plan.request.coverage->height : plan.grid.z;
   second.push_back(fmt::format("cells of {:g} m", plan.grid.cell));
   second.push_back(fmt::format("{:g} m above the ground", height));
-  layout.title = wrap(first, layout.text_width, title_size * u, true);
+  // A title a little too long for one line is set smaller, a longer one is wrapped.
+  constexpr double smallest = 0.82;
+  const double one_line =
+      grimaldi::text_width(fmt::format("{}", fmt::join(first, title_separator)), title_size * u, true);
+  const double shrink = layout.text_width / one_line;
+  layout.title_type = title_size * u * (shrink >= smallest ? std::min(1.0, shrink) : 1.0);
+  layout.title = wrap(first, layout.text_width, layout.title_type, true);
   layout.subtitle = wrap(second, layout.text_width, size, false);
   layout.frame.top = int(std::ceil((outer_margin + 14) * u + double(layout.title.size()) * 1.35 * title_size * u +
                                    double(layout.subtitle.size()) * 1.4 * size));
@@ -262,7 +276,7 @@ std::vector<std::optional<PlotBox>> place_names(const Layout& layout, std::vecto
   const double u = layout.unit, size = small_size * u;
   // Names may leave a panel that is too small for them, but not for the axes below and to the left.
   PlotBox room = layout.panel();
-  if (room.width() < 500 * u) room.right = std::min(layout.width - 8 * u, room.right + 300 * u);
+  room.right += layout.bar_gap - least_bar_gap * u;
   if (room.height() < 120 * u) room.top -= 24 * u;
   LabelPlacer placer(room);
   for (const Marker& marker : markers) {
@@ -296,14 +310,19 @@ void draw_markers(Canvas& canvas, double u, const std::vector<Marker>& markers,
       canvas.line(from, near, white, 4 * u, 0.85);
       canvas.line(from, near, black, 1.5 * u);
     }
+  }
+  for (std::size_t i = 0; i < markers.size(); ++i) {
+    if (!places[i]) continue;
+    const PlotBox& box = *places[i];
     canvas.text({box.left + 3 * u, (box.top + box.bottom) / 2}, markers[i].name,
                 {.size = small_size * u, .bold = markers[i].transmitter, .halo = 3.5 * u});
   }
 }
 
-/// `nameless`: markers whose names found no room.
+/// `nameless`: markers whose names found no room; `outside`: names of those that lie off the map.
 std::vector<LegendEntry> legend_entries(const Plan& plan, const Shown& shown, std::size_t transmitters,
-                                        std::size_t receivers, std::size_t nameless, double unit) {
+                                        std::size_t receivers, std::size_t nameless,
+                                        const std::vector<std::string>& outside, double unit) {
   std::vector<LegendEntry> entries;
   const int w = int(std::lround(40 * unit)), h = int(std::lround(24 * unit));
   const auto corner = [w, h](PlotPoint at) { return std::pair{int(at.x) - w / 2, int(at.y) - h / 2}; };
@@ -343,10 +362,14 @@ std::vector<LegendEntry> legend_entries(const Plan& plan, const Shown& shown, st
                          canvas.text(at, "…", {.size = body_size * unit, .bold = true}, Align::middle);
                        }});
   }
-  const std::size_t outside =
-      plan.request.transmitters.size() + plan.request.receivers.size() - transmitters - receivers;
-  if (outside > 0) {
-    entries.push_back({fmt::format("{} outside the map", outside), [unit](Canvas& canvas, PlotPoint at) {
+  if (!outside.empty()) {
+    std::string words = "outside the map: ";
+    constexpr std::size_t named = 3;
+    for (std::size_t i = 0; i < std::min(named, outside.size()); ++i) {
+      words += (i > 0 ? ", " : "") + shorten(outside[i], 250 * unit, small_size * unit);
+    }
+    if (outside.size() > named) words += fmt::format(" and {} more", outside.size() - named);
+    entries.push_back({words, [unit](Canvas& canvas, PlotPoint at) {
                          canvas.text(at, "→", {.size = body_size * unit}, Align::middle);
                        }});
   }
@@ -379,9 +402,11 @@ MapPicture coverage_picture(const Scene& scene, const Plan& plan, const Result& 
 
   std::vector<Marker> markers;
   std::size_t marked[2] = {0, 0};
+  std::vector<std::string> outside;
   const auto mark = [&](const Vec3& position, const std::string& name, bool transmitter) {
     if (position.x < layout.x_range.low || position.x > layout.x_range.high || position.y < layout.y_range.low ||
         position.y > layout.y_range.high) {
+      outside.push_back(name);
       return;
     }
     markers.push_back({{layout.frame.x(position.x), layout.frame.y(position.y)}, name, transmitter});
@@ -392,14 +417,15 @@ MapPicture coverage_picture(const Scene& scene, const Plan& plan, const Result& 
 
   const auto places = place_names(layout, markers);
   const auto nameless = std::size_t(std::count(places.begin(), places.end(), std::nullopt));
-  const std::vector<LegendEntry> legend = legend_entries(plan, shown, marked[true], marked[false], nameless, u);
+  const std::vector<LegendEntry> legend =
+      legend_entries(plan, shown, marked[true], marked[false], nameless, outside, u);
   const auto rows = legend_rows(legend, layout.text_width, u);
   layout.height = int(std::ceil(layout.legend_top + double(rows.size()) * 38 * u + outer_margin * u - 8 * u));
 
   Canvas canvas(layout.width, layout.height);
   double y = outer_margin * u + 0.4 * title_size * u;
   for (const std::string& line : layout.title) {
-    canvas.text({layout.text_left, y}, line, {.size = title_size * u, .bold = true});
+    canvas.text({layout.text_left, y}, line, {.size = layout.title_type, .bold = true});
     y += 1.35 * title_size * u;
   }
   for (const std::string& line : layout.subtitle) {
@@ -410,20 +436,20 @@ MapPicture coverage_picture(const Scene& scene, const Plan& plan, const Result& 
   draw_cells(canvas, layout, shown);
   const double pixels_per_metre = layout.frame.columns / (double(plan.grid.nx) * plan.grid.cell);
   const double wall =
-      std::clamp(0.5 * pixels_per_metre, 0.9, 2.2) * u;  // half a metre thick, as long as that can be seen
+      std::clamp(0.5 * pixels_per_metre, 1.2, 2.4) * u;  // half a metre thick, as long as that can be seen
   canvas.lines(roof_lines(scene, layout.frame), panel, {35, 35, 35}, 0.6 * wall, 0.6);
   canvas.lines(section(scene, layout.frame), panel, {25, 25, 25}, wall);
   canvas.frame({panel.left - u, panel.top - u, panel.right + u, panel.bottom + u}, black, 2 * u);
   draw_x_axis(canvas, panel, layout.x_range, layout.x_ticks, "x, east (m)", size);
-  draw_y_axis(canvas, panel, layout.y_range, layout.y_ticks, "y, north (m)", size);
+  draw_y_axis(canvas, panel, layout.y_range, layout.y_ticks, "y, north (m)", "y (m)", size);
   draw_markers(canvas, u, markers, places);
 
   if (shown.reached > 0) {
-    const PlotBox bar =
-        layout.upright_bar
-            ? PlotBox{panel.right + bar_gap * u, panel.top, panel.right + (bar_gap + bar_width) * u, panel.bottom}
-            : PlotBox{layout.text_left, layout.bar_top, layout.text_left + std::min(900 * u, layout.text_width),
-                      layout.bar_top + bar_width * u};
+    const PlotBox bar = layout.upright_bar ? PlotBox{panel.right + layout.bar_gap, panel.top,
+                                                     panel.right + layout.bar_gap + bar_width * u, panel.bottom}
+                                           : PlotBox{layout.text_left, layout.bar_top,
+                                                     layout.text_left + std::min(900 * u, layout.text_width),
+                                                     layout.bar_top + bar_width * u};
     draw_colour_bar(canvas, bar, shown.scale, quantity.name + " (" + quantity.unit + ")", shown.below, shown.above,
                     size);
   }

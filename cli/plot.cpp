@@ -111,15 +111,21 @@ double text_width(std::string_view text, double size, bool bold) {
 }
 
 std::string shorten(std::string_view text, double width, double size, bool bold) {
-  std::string kept = printable(text);
-  if (text_width(kept, size, bold) <= width) return kept;
-  while (!kept.empty()) {
-    std::size_t end = kept.size() - 1;
-    while (end > 0 && (static_cast<unsigned char>(kept[end]) & 0xC0u) == 0x80u) --end;
-    kept.resize(end);
-    if (text_width(kept + "…", size, bold) <= width) break;
+  const std::string whole = printable(text);
+  if (text_width(whole, size, bold) <= width) return whole;
+  std::vector<std::size_t> starts;  // of the characters, and the end
+  for (std::size_t i = 0; i < whole.size(); i += sequence_length(whole, i)) starts.push_back(i);
+  starts.push_back(whole.size());
+  const auto keep = [&](std::size_t count) {
+    const std::size_t tail = count / 2, head = count - tail;
+    return whole.substr(0, starts[head]) + "…" + whole.substr(starts[starts.size() - 1 - tail]);
+  };
+  std::size_t fits = 0, too_many = starts.size() - 1;
+  while (too_many - fits > 1) {
+    const std::size_t count = (fits + too_many) / 2;
+    (text_width(keep(count), size, bold) <= width ? fits : too_many) = count;
   }
-  return kept + "…";
+  return keep(fits);
 }
 
 Canvas::Canvas(int width, int height) : width_(width), height_(height) {

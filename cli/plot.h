@@ -52,7 +52,8 @@ struct TextStyle {
 /// `text` is UTF-8; what is not valid, and control characters, are drawn and measured as U+FFFD.
 double text_width(std::string_view text, double size, bool bold = false);
 
-/// `text` if it is no wider than `width` px, else its longest beginning that is, followed by an ellipsis.
+/// `text` if it is no wider than `width` px, else as much of its beginning and end as fits, with an ellipsis between:
+/// names that differ in their last letters stay different.
 std::string shorten(std::string_view text, double width, double size, bool bold = false);
 
 /// `text` with every byte that is not part of valid UTF-8, and every control character, replaced by U+FFFD.

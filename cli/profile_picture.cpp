@@ -35,9 +35,7 @@ constexpr std::array<Colour, 8> palette{{{0, 114, 178},
                                          {230, 159, 0},
                                          {120, 120, 120},
                                          {150, 140, 0}}};
-Colour transmitter_colour(std::size_t t) {
-  return palette[t % palette.size()];
-}
+Colour transmitter_colour(std::size_t t) { return palette[t % palette.size()]; }
 
 /// A delay of the first band's scale: seconds → ns or ms.
 struct DelayUnit {
@@ -102,16 +100,15 @@ std::string totals_text(const Plan& plan, const ReceiverProfile& profile, const 
   const std::size_t i = t * plan.bands();
   std::string text;
   if (plan.request.transmitters.size() > 1) text = plan.request.transmitters[t].name + ": ";
-  text += fmt::format("total {} {}", number_text(quantity.decibels(t, profile.total[i]), 1), quantity.unit);
+  text += fmt::format("total {} dB", number_text(quantity.decibels(t, profile.total[i]), 1));
   if (profile.total_coherent[i] > 0) {
-    text +=
-        fmt::format("{}coherent {}", title_separator, number_text(quantity.decibels(t, profile.total_coherent[i]), 1));
+    text += fmt::format(", coherent {} dB", number_text(quantity.decibels(t, profile.total_coherent[i]), 1));
   }
   if (std::isfinite(profile.mean_delay[i])) {
     text += fmt::format("{}mean delay {}", title_separator, delay_text(profile.mean_delay[i], plan));
   }
   if (std::isfinite(profile.rms_delay_spread[i])) {
-    text += fmt::format("{}delay spread {}", title_separator, delay_text(profile.rms_delay_spread[i], plan));
+    text += fmt::format(", spread {}", delay_text(profile.rms_delay_spread[i], plan));
   }
   return text;
 }
@@ -217,8 +214,7 @@ void draw_bars_and_stems(Canvas& canvas, const Plan& plan, const Panel& panel, c
 }
 
 /// The panel's heading; returns where it ends.
-double draw_heading(Canvas& canvas, const Plan& plan, const Panel& panel, const ShownQuantity& quantity, double left,
-                    double top, double width) {
+double draw_heading(Canvas& canvas, const Plan& plan, const Panel& panel, double left, double top, double width) {
   const bool many = plan.request.transmitters.size() > 1;
   const Vec3& p = panel.profile->position;
   const std::string place =
@@ -248,7 +244,6 @@ double draw_heading(Canvas& canvas, const Plan& plan, const Panel& panel, const 
                 {.size = small_size, .colour = grey});
     y += line_height;
   }
-  static_cast<void>(quantity);
   return y;
 }
 
@@ -271,7 +266,7 @@ Canvas profile_picture(const Plan& plan, const Result& result) {
   }
   const double title_height = 1.35 * title_size + 1.4 * body_size + 26;
   double height = outer_margin + title_height + outer_margin;
-  for (const double h : heading) height += h + plot_height + x_axis_height(body_size) + panel_gap;
+  for (const double h : heading) height += h + plot_height + x_axis_height(small_size) + panel_gap;
   const std::size_t left_out = result.profiles.size() - count;
   height += left_out > 0 || count == 0 ? 1.5 * body_size : -panel_gap;
 
@@ -293,7 +288,7 @@ Canvas profile_picture(const Plan& plan, const Result& result) {
     for (std::size_t column = 0; column < columns && row * columns + column < count; ++column) {
       const Panel& panel = panels[row * columns + column];
       const double left = outer_margin + double(column) * (width + column_gap);
-      draw_heading(canvas, plan, panel, quantity, left, top, width);
+      draw_heading(canvas, plan, panel, left, top, width);
       PlotBox box{left, std::round(top + heading[row]), std::round(left + width), 0};
       box.bottom = box.top + plot_height;
       if (!panel.decibels) {
@@ -313,9 +308,10 @@ Canvas profile_picture(const Plan& plan, const Result& result) {
       draw_bars_and_stems(canvas, plan, panel, quantity, box);
       canvas.frame(box, black, 2);
       draw_x_axis(canvas, box, *panel.delay, x_ticks, std::string("delay (") + delay_unit(plan).name + ")", small_size);
-      draw_y_axis(canvas, box, *panel.decibels, y_ticks, quantity.name + " (" + quantity.unit + ")", small_size);
+      draw_y_axis(canvas, box, *panel.decibels, y_ticks, quantity.name + " (" + quantity.unit + ")", "level (dB)",
+                  small_size);
     }
-    top += heading[row] + plot_height + x_axis_height(body_size) + panel_gap;
+    top += heading[row] + plot_height + x_axis_height(small_size) + panel_gap;
   }
   if (left_out > 0 || count == 0) {
     const std::string note =

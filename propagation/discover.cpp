@@ -15,11 +15,13 @@ namespace grimaldi {
 namespace {
 
 constexpr std::uint64_t block_size = 4096;
-constexpr std::uint32_t edge_stream = 2;
+constexpr std::uint64_t aimed_block_size = 256;
+constexpr std::uint32_t edge_stream = 2, aim_stream = 4;
 /// Footprint of a beam over the spacing of the beams of its pass: more than ½ √2, so that every place is in some footprint.
 constexpr double footprint_share = 0.75;
-/// Beams that leave an edge for one that met it: the exterior of an edge is a whole fan of directions.
-constexpr int beams_per_edge = 16;
+/// Beams that leave an edge for one that met it: the exterior of an edge is a whole fan of directions. More where the
+/// transmitter itself sees the edge: those waves are the strong ones.
+constexpr int beams_per_first_edge = 16, beams_per_edge = 8;
 
 struct Beam {
   Vec3 origin, direction;
@@ -88,11 +90,35 @@ class KeySet {
   std::size_t used_ = 0;
 };
 
+/// Wedges at the rims of each patch.
+struct PatchRims {
+  std::vector<std::uint32_t> begins, wedges;
+  explicit PatchRims(const Scene& scene) : begins(scene.patches.patches.size() + 1, 0) {
+    const auto each = [&](auto&& act) {
+      for (std::uint32_t w = 0; w < scene.wedges.wedges.size(); ++w) {
+        const Wedge& wedge = scene.wedges.wedges[w];
+        act(wedge.patch0, w);
+        if (wedge.patchn != wedge.patch0) act(wedge.patchn, w);
+      }
+    };
+    each([&](std::uint32_t patch, std::uint32_t) { ++begins[patch + 1]; });
+    for (std::size_t i = 1; i < begins.size(); ++i) begins[i] += begins[i - 1];
+    wedges.resize(begins.back());
+    std::vector<std::uint32_t> next(begins.begin(), begins.end() - 1);
+    each([&](std::uint32_t patch, std::uint32_t w) { wedges[next[patch]++] = w; });
+  }
+  /// The wedge of `patch` that the number u in [0, 1) names; no_index if it has none.
+  std::uint32_t pick(std::uint32_t patch, double u) const {
+    const std::uint32_t count = begins[patch + 1] - begins[patch];
+    return count == 0 ? no_index : wedges[begins[patch] + static_cast<std::uint32_t>(u * count)];
+  }
+};
+
 /// One thread's walker: takes beams from birth to death and leaves records in a block.
 class Walker {
  public:
-  Walker(const Scene& scene, const Tracer& tracer, const Plan& plan, const ReflectanceTable& reflectance)
-      : scene_(scene), tracer_(tracer), plan_(plan), reflectance_(reflectance), keep_all_(!plan.request.receivers.empty()),
+  Walker(const Scene& scene, const Tracer& tracer, const Plan& plan, const ReflectanceTable& reflectance, const PatchRims& rims)
+      : scene_(scene), tracer_(tracer), plan_(plan), reflectance_(reflectance), rims_(rims), keep_all_(!plan.request.receivers.empty()),
         far_(2 * distance(scene.low, scene.high) + double(plan.grid.nx + plan.grid.ny) * plan.grid.cell) {}
 
   void begin_block(double spacing, BlockRecords& records) {
@@ -111,14 +137,29 @@ class Walker {
     beam.direction = direction;
     records_->flux.launched += 1;
     follow(beam);
+    follow_pending();
+  }
+
+  /// A beam aimed at the wedge at the share `along` of its length, straight from the transmitter.
+  void walk_to_edge(const Vec3& origin, std::uint32_t wedge_index, double along, std::uint64_t beam_number) {
+    beam_number_ = beam_number;
+    draws_ = 0;
+    seed_draw_ = beam_number;
+    Beam beam;
+    beam.origin = origin;
+    aim(beam, wedge_index, along);
+    follow_pending();
+  }
+
+ private:
+  void follow_pending() {
     while (!pending_.empty()) {
-      beam = pending_.back();
+      Beam beam = pending_.back();
       pending_.pop_back();
       follow(beam);
     }
   }
 
- private:
   void follow(Beam& beam) {
     const PlanDescription& request = plan_.request;
     for (;;) {
@@ -133,8 +174,9 @@ class Walker {
       const Patch& patch = scene_.patches.patches[patch_index];
       const Vec3 point = beam.origin + hit.distance * beam.direction;
       const bool deep = beam.depth >= request.depth;
-      if (!deep && request.diffraction && beam.diffractions < request.max_diffractions)
-        meet_edges(beam, hit, point);
+      // Every edge that the transmitter sees has beams of its own.
+      if (!deep && beam.depth > 0 && request.diffraction && beam.diffractions < request.max_diffractions)
+        meet_edges(beam, hit, point, patch_index);
       const double cosine = dot(patch.normal, beam.direction);
       const double reflected = beam.power * reflectance_(patch.material, std::abs(cosine));
       records_->flux.absorbed += beam.power - reflected;
@@ -197,8 +239,9 @@ class Walker {
     records_->seeds.push_back({keep(beam), static_cast<std::uint32_t>(cell), 0, crossed});
   }
 
-  /// Beams leave those edges of the hit triangle that lie in the footprint.
-  void meet_edges(const Beam& beam, const Hit& hit, const Vec3& point) {
+  /// Beams leave those edges of the hit triangle that lie in the footprint, and one edge drawn from the rims of the hit
+  /// patch and of the patches next to it (the far side of a roof is grazed, so hardly ever hit).
+  void meet_edges(const Beam& beam, const Hit& hit, const Vec3& point, std::uint32_t hit_patch) {
     const Wedges& wedges = scene_.wedges;
     const double reach = footprint_share * spacing_ * (beam.length + hit.distance);
     for (auto i = wedges.triangle_wedge_begin[hit.triangle]; i < wedges.triangle_wedge_begin[hit.triangle + 1]; ++i) {
@@ -211,6 +254,27 @@ class Walker {
       if (norm2(point - wedge.point(along)) > reach * reach) continue;
       leave_edge(beam, wedge_index, along, hit.distance);
     }
+    const auto u = uniform4(plan_.request.seed, edge_stream, beam_number_, draws_++);
+    std::uint32_t target = rims_.pick(hit_patch, u[0]);
+    if (target == no_index) return;
+    if (u[1] < 0.5) {
+      const Wedge& wedge = scene_.wedges.wedges[target];
+      target = rims_.pick(wedge.patch0 == hit_patch ? wedge.patchn : wedge.patch0, u[2]);
+    }
+    aim(beam, target, u[3]);
+  }
+
+  /// Beams leave a wedge that the beam's last point sees, whichever way the beam went.
+  void aim(const Beam& beam, std::uint32_t wedge_index, double share) {
+    const Wedge& wedge = scene_.wedges.wedges[wedge_index];
+    if (beam.depth > 0 && (beam.leave0 == wedge.patch0 || beam.leave0 == wedge.patchn)) return;
+    const double along = share * wedge.length;
+    const double half = 0.5 * wedge.exterior_angle;
+    const Vec3 seen =
+        wedge.point(along) + 3 * tracer_.surface_gap() * (std::cos(half) * wedge.along0 + std::sin(half) * wedge.normal0);
+    ++records_->segments;
+    if (!tracer_.visible(beam.origin, seen)) return;
+    leave_edge(beam, wedge_index, along, distance(beam.origin, seen));
   }
 
   void leave_edge(const Beam& beam, std::uint32_t wedge_index, double along, double hit_distance) {
@@ -242,7 +306,8 @@ class Walker {
     child.interactions = beam.interactions;
     append(child, edge_interaction(wedge_index));
     if (keep_all_) keep(child);
-    for (int i = 0; i < beams_per_edge; ++i) {
+    const int beams = beam.depth == 0 ? beams_per_first_edge : beams_per_edge;
+    for (int i = 0; i < beams; ++i) {
       const double phi = draw_azimuth(wedge, phi_in, sin_beta, incident_length);
       child.direction = normalized(cos_beta * wedge.direction +
                                    sin_beta * (std::cos(phi) * wedge.along0 + std::sin(phi) * wedge.normal0));
@@ -271,6 +336,7 @@ class Walker {
   const Tracer& tracer_;
   const Plan& plan_;
   const ReflectanceTable& reflectance_;
+  const PatchRims& rims_;
   const bool keep_all_;
   const double far_;  ///< beyond everything, m
   double spacing_ = 0;
@@ -325,9 +391,10 @@ Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, 
   const auto total = static_cast<std::uint64_t>(request.rays);
   const auto passes = static_cast<std::uint64_t>(request.passes);
   const ReflectanceTable reflectance(plan);
+  const PatchRims rims(scene);
   const unsigned threads = request.threads ? request.threads : hardware_threads();
   std::vector<Walker> walkers;
-  for (unsigned i = 0; i < threads; ++i) walkers.emplace_back(scene, tracer, plan, reflectance);
+  for (unsigned i = 0; i < threads; ++i) walkers.emplace_back(scene, tracer, plan, reflectance, rims);
   for (std::uint64_t pass = 0; needed && pass < passes; ++pass) {
     if (stop && *stop) break;
     const std::uint64_t count = (pass + 1) * total / passes - pass * total / passes;
@@ -335,12 +402,24 @@ Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, 
     const Launcher launcher(request.seed, static_cast<std::uint32_t>(pass), count);
     const double spacing = std::sqrt(4 * pi / double(count));
     const std::uint64_t blocks = (count + block_size - 1) / block_size;
-    std::vector<BlockRecords> records(blocks);
+    // One beam a pass to each wedge, or to as many as there are rays in the pass.
+    const std::uint64_t wedges = request.diffraction && request.max_diffractions > 0 ? scene.wedges.wedges.size() : 0;
+    const std::uint64_t aimed = std::min(wedges, count), aimed_blocks = (aimed + aimed_block_size - 1) / aimed_block_size;
+    std::vector<BlockRecords> records(blocks + aimed_blocks);
     for_each_block(
-        blocks, threads,
+        blocks + aimed_blocks, threads,
         [&](std::size_t block, unsigned thread) {
           Walker& walker = walkers[thread];
           walker.begin_block(spacing, records[block]);
+          if (block >= blocks) {
+            const std::uint64_t first = (block - blocks) * aimed_block_size;
+            for (std::uint64_t i = first; i < std::min(aimed, first + aimed_block_size); ++i) {
+              const std::uint64_t wedge = aimed == wedges ? i : (pass * aimed + i) % wedges;
+              const double along = (double(pass) + uniform4(request.seed, aim_stream, wedge, std::uint32_t(pass))[0]) / double(passes);
+              walker.walk_to_edge(request.transmitters[transmitter].position, std::uint32_t(wedge), along, ~(pass << 40 | wedge));
+            }
+            return;
+          }
           const std::uint64_t end = std::min(count, (block + 1) * block_size);
           for (std::uint64_t i = block * block_size; i < end; ++i)
             walker.walk(request.transmitters[transmitter].position, launcher.direction(i), pass << 40 | i);

@@ -20,9 +20,7 @@ double distance2(const PlanPoint& a, const PlanPoint& b) {
   return (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y);
 }
 
-Vec3 lifted(const PlanPoint& p, double z) {
-  return {p.x, p.y, z};
-}
+Vec3 lifted(const PlanPoint& p, double z) { return {p.x, p.y, z}; }
 
 Index append_vertex(const Vec3& p, MeshDescription& mesh) {
   mesh.vertices.push_back(p);

@@ -225,7 +225,9 @@ TEST(Canonical, street_canyon) {
     for (const Vec3& v : mesh.vertices) {
       EXPECT_LE(std::abs(v.x), 105 + 50);  // (3·60 + 2·15)/2 and the margin
       EXPECT_LE(std::abs(v.y), 6 + 15 + 50);
-      if (mesh.name != "ground") EXPECT_GE(std::abs(v.y), 6);
+      if (mesh.name != "ground") {
+        EXPECT_GE(std::abs(v.y), 6);
+      }
     }
   }
   const Scene ready = built("street-canyon", parameters);
