@@ -102,7 +102,7 @@ Colour colour_of(double value, const ValueRange& range) {
 
 Ticks axis_ticks(const ValueRange& range, double length, double size, bool side_by_side) {
   // Not nearer than a reader needs: 90 px across, 70 px up, for type of 22 px.
-  int most = std::max(3, int(length / (side_by_side ? 4.1 * size : 3.2 * size)));
+  int most = std::max(3, 1 + int(length / (side_by_side ? 4.1 * size : 3.2 * size)));
   for (;; --most) {
     Ticks ticks = round_ticks(range, most);
     const double apart = length * ticks.step / (range.high - range.low);

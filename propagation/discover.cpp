@@ -10,12 +10,17 @@
 #include "core/random.h"
 #include "propagation/face_reflection.h"
 #include "propagation/launcher.h"
+#include "propagation/laws/free_space_diffraction.h"
 
 namespace grimaldi {
 namespace {
 
 constexpr std::uint64_t block_size = 4096;
 constexpr std::uint64_t aimed_block_size = 256;
+/// A pass aims one beam at edges for this many that it launches.
+constexpr std::uint64_t rays_per_aimed = 8;
+/// Paths weaker than the wave at 1 m by this factor (140 dB) are not sought.
+constexpr double gain_floor = 1e-14;
 constexpr std::uint32_t edge_stream = 2, aim_stream = 4;
 /// Footprint of a beam over the spacing of the beams of its pass: more than ½ √2, so that every place is in some footprint.
 constexpr double footprint_share = 0.75;
@@ -29,6 +34,8 @@ struct Beam {
   double since_vertex = 0;  ///< length since the source or the last edge, m
   double length = 0;        ///< since the transmitter, m
   double power = 1;         ///< share of the launched flux; 0 for beams from edges, which carry none of it
+  /// Estimate of the gain at s m since the vertex, faces taken as lossless: strength/(s (s + radius)).
+  double strength = 1, radius = 0;
   SequenceHash hash = empty_sequence;
   std::uint8_t depth = 0, reflections = 0, diffractions = 0;
   std::array<Interaction, max_depth> interactions;
@@ -229,8 +236,15 @@ class Walker {
     return from < to;
   }
 
+  /// Estimated gain `t` m further along the beam.
+  static double gain_at(const Beam& beam, double t) {
+    const double s = beam.since_vertex + t;
+    return beam.strength / (s * (s + beam.radius));
+  }
+
   void record_cell(const Beam& beam, double t, bool crossed) {
     const GridLayout& grid = plan_.grid;
+    if (gain_at(beam, t) < gain_floor) return;
     const double x = (beam.origin.x + t * beam.direction.x - grid.x0) / grid.cell;
     const double y = (beam.origin.y + t * beam.direction.y - grid.y0) / grid.cell;
     if (!(x >= 0 && y >= 0 && x < double(grid.nx) && y < double(grid.ny))) return;
@@ -292,7 +306,10 @@ class Walker {
     constexpr double rounding = 1e-9;  // of a source that lies in the plane of a face
     if (phi_in < -rounding) phi_in += 2 * pi;
     if (phi_in > wedge.exterior_angle + rounding) return;  // the wave comes through the solid
+    const double gain = gain_at(beam, hit_distance);
+    if (gain < gain_floor) return;
     Beam child;
+    child.radius = incident_length;
     const double half = 0.5 * wedge.exterior_angle;
     child.origin = edge_point + 3 * tracer_.surface_gap() * (std::cos(half) * wedge.along0 + std::sin(half) * wedge.normal0);
     child.leave0 = wedge.patch0;
@@ -309,10 +326,23 @@ class Walker {
     const int beams = beam.depth == 0 ? beams_per_first_edge : beams_per_edge;
     for (int i = 0; i < beams; ++i) {
       const double phi = draw_azimuth(wedge, phi_in, sin_beta, incident_length);
+      child.strength = gain * incident_length * diffracted_strength(wedge, phi_in, phi, sin_beta, incident_length);
       child.direction = normalized(cos_beta * wedge.direction +
                                    sin_beta * (std::cos(phi) * wedge.along0 + std::sin(phi) * wedge.normal0));
       pending_.push_back(child);
     }
+  }
+
+  /// Bound on L|ΣU|², m: each of an edge's terms by its asymptote or ½, L by the length of the incident leg.
+  double diffracted_strength(const Wedge& wedge, double phi_in, double phi, double sin_beta, double incident_length) const {
+    const double wavelength = plan_.speed / plan_.frequency.front();
+    double sum = 0;
+    for (const double epsilon : {std::abs(phi - phi_in) - pi, phi + phi_in - pi, 2 * wedge.exterior_angle - phi - phi_in - pi}) {
+      const double v = fresnel_parameter(incident_length, wavelength, sin_beta, epsilon);
+      sum += v < 0.45 ? 0.5 : 1 / (std::sqrt(2.0) * pi * v);
+      if (!plan_.request.reflection) break;
+    }
+    return incident_length * sum * sum;
   }
 
   double draw_azimuth(const Wedge& wedge, double phi_in, double sin_beta, double incident_length) {
@@ -404,7 +434,7 @@ Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, 
     const std::uint64_t blocks = (count + block_size - 1) / block_size;
     // One beam a pass to each wedge, or to as many as there are rays in the pass.
     const std::uint64_t wedges = request.diffraction && request.max_diffractions > 0 ? scene.wedges.wedges.size() : 0;
-    const std::uint64_t aimed = std::min(wedges, count), aimed_blocks = (aimed + aimed_block_size - 1) / aimed_block_size;
+    const std::uint64_t aimed = std::min(wedges, count / rays_per_aimed + 1), aimed_blocks = (aimed + aimed_block_size - 1) / aimed_block_size;
     std::vector<BlockRecords> records(blocks + aimed_blocks);
     for_each_block(
         blocks + aimed_blocks, threads,

@@ -33,6 +33,9 @@ struct Discovered {
 /// Keller cone, its azimuth drawn half uniformly over the exterior and half close to the shadow and reflection boundaries, and
 /// goes on in the same way. A segment of a beam names the cell that it crosses and one cell, drawn at random, over or under which it passes: a wave that leaves a
 /// wall or an upright edge at one height leaves it at others too. Only which sequences are found depends on these choices, never how strong they are.
+/// Paths 140 dB weaker than the wave at 1 m, by a bound on the way, are not sought.
+/// Each pass also aims beams at the wedges themselves (one for 8 launched, at most one a wedge), so that those that the transmitter sees are met at all their length; after a
+/// reflection or diffraction a beam that hits a patch is aimed at one wedge of that patch or of its neighbours.
 /// Every sequence met is entered if the plan has receivers, else those that lit a cell.
 /// `progress` is told the share done. Ends early when `stop` is set.
 Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
