@@ -27,17 +27,18 @@ constexpr double outer_margin = 36, bar_width = 34, least_bar_gap = 30, name_cle
 
 /// What is shown of each cell, and how many there are of each sort.
 struct Shown {
-  enum class Sort : std::uint8_t { inside, unreached, reached };
+  enum class Sort : std::uint8_t { inside, unreached, reached, fault };
   std::vector<double> decibels;  ///< of reached cells; 0 for the others
   std::vector<Sort> sort;
-  std::size_t inside = 0, unreached = 0, reached = 0;
+  std::size_t inside = 0, unreached = 0, reached = 0, fault = 0;
   bool below = false, above = false;  ///< there are values beyond the scale
   ValueRange scale;
 };
 
 Shown shown_cells(const Plan& plan, const CoverageMap& map, const ShownQuantity& quantity) {
   const std::size_t cells = plan.grid.size(), transmitters = quantity.weight.size();
-  GRIMALDI_EXPECT(cells > 0 && map.path_gain.size() == transmitters * plan.bands() * cells);
+  GRIMALDI_EXPECT(cells > 0 && map.path_gain.size() == transmitters * plan.bands() * cells &&
+                  map.inside_fraction.size() == cells);
   Shown shown;
   shown.decibels.assign(cells, 0.0);
   shown.sort.assign(cells, Shown::Sort::unreached);
@@ -47,8 +48,9 @@ Shown shown_cells(const Plan& plan, const CoverageMap& map, const ShownQuantity&
     for (std::size_t t = 0; t < transmitters; ++t)
       sum += quantity.weight[t] * map.path_gain[t * plan.bands() * cells + cell];
     if (std::isnan(sum)) {
-      shown.sort[cell] = Shown::Sort::inside;
-      ++shown.inside;
+      const bool inside = map.inside_fraction[cell] >= 1;
+      shown.sort[cell] = inside ? Shown::Sort::inside : Shown::Sort::fault;
+      ++(inside ? shown.inside : shown.fault);
     } else if (sum > 0) {
       shown.sort[cell] = Shown::Sort::reached;
       shown.decibels[cell] = 10 * std::log10(sum);
@@ -56,7 +58,7 @@ Shown shown_cells(const Plan& plan, const CoverageMap& map, const ShownQuantity&
     }
   }
   shown.reached = values.size();
-  shown.unreached = cells - shown.inside - shown.reached;
+  shown.unreached = cells - shown.inside - shown.reached - shown.fault;
   if (!values.empty()) {
     shown.scale = colour_range(values);
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
@@ -264,6 +266,7 @@ void draw_cells(Canvas& canvas, const Layout& layout, const Shown& shown) {
   for (std::size_t k = 0; k < pixels.size(); ++k) {
     const std::size_t cell = cell_of(k);
     if (shown.sort[cell] == Shown::Sort::inside) pixels[k] = inside_colour;
+    if (shown.sort[cell] == Shown::Sort::fault) pixels[k] = fault_colour;
     if (shown.sort[cell] == Shown::Sort::reached) pixels[k] = colour_of(shown.decibels[cell], shown.scale);
   }
   paint_unreached(pixels, frame.columns, frame.rows, int(std::lround(layout.unit)),
@@ -330,13 +333,20 @@ std::vector<LegendEntry> legend_entries(const Plan& plan, const Shown& shown, st
     const auto [left, top] = corner(at);
     canvas.frame({double(left), double(top), double(left + w), double(top + h)}, black, 1.5 * unit);
   };
+  const auto plain = [=](Colour colour) {
+    return [=](Canvas& canvas, PlotPoint at) {
+      const auto [left, top] = corner(at);
+      canvas.image(left, top, w, std::vector<Colour>(std::size_t(w * h), colour));
+      outline(canvas, at);
+    };
+  };
   if (shown.inside > 0) {
-    entries.push_back({"inside a building (" + share_words(shown.inside, plan.grid.size()) + " of the cells)",
-                       [=](Canvas& canvas, PlotPoint at) {
-                         const auto [left, top] = corner(at);
-                         canvas.image(left, top, w, std::vector<Colour>(std::size_t(w * h), inside_colour));
-                         outline(canvas, at);
-                       }});
+    entries.push_back(
+        {"inside a building (" + share_words(shown.inside, plan.grid.size()) + " of the cells)", plain(inside_colour)});
+  }
+  if (shown.fault > 0) {
+    entries.push_back({"not a number: a fault of the program (" + share_words(shown.fault, plan.grid.size()) + ")",
+                       plain(fault_colour)});
   }
   if (shown.unreached > 0) {
     entries.push_back(

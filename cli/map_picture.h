@@ -15,6 +15,9 @@ namespace grimaldi {
 
 /// Fill of cells wholly inside a solid (path_gain NaN).
 inline constexpr Colour inside_colour{150, 150, 150};
+/// Fill of cells that are not wholly inside a solid and have no number all the same: a fault of the program, never
+/// hidden.
+inline constexpr Colour fault_colour{230, 0, 200};
 /// Cells asked but not reached are white with diagonal lines of this colour.
 inline constexpr Colour unreached_colour = white, unreached_hatch_colour{190, 190, 190};
 

@@ -100,6 +100,7 @@ std::string totals_text(const Plan& plan, const ReceiverProfile& profile, const 
   const std::size_t i = t * plan.bands();
   std::string text;
   if (plan.request.transmitters.size() > 1) text = plan.request.transmitters[t].name + ": ";
+  if (!std::isfinite(profile.total[i])) return text + "total is not a number: a fault of the program";
   text += fmt::format("total {} dB", number_text(quantity.decibels(t, profile.total[i]), 1));
   if (profile.total_coherent[i] > 0) {
     text += fmt::format(", coherent {} dB", number_text(quantity.decibels(t, profile.total_coherent[i]), 1));
@@ -124,7 +125,10 @@ Panel make_panel(const Plan& plan, const ReceiverProfile& profile, const ShownQu
 
   std::vector<std::pair<double, std::size_t>> strongest;
   for (std::size_t t = 0; t < transmitters; ++t) {
-    if (profile.total[t * bands] > 0) strongest.emplace_back(-quantity.decibels(t, profile.total[t * bands]), t);
+    const double total = profile.total[t * bands];
+    if (total > 0) strongest.emplace_back(-quantity.decibels(t, total), t);
+    // Not hidden, and before all others.
+    if (!std::isfinite(total)) strongest.emplace_back(-std::numeric_limits<double>::infinity(), t);
   }
   std::sort(strongest.begin(), strongest.end());
   for (std::size_t i = 0; i < std::min(strongest.size(), most_total_lines); ++i) {

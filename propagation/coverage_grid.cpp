@@ -76,25 +76,37 @@ struct CellPoints {
   std::vector<SubPoint> points;
 };
 
-CellPoints crossed_cell(const Tracer& tracer, const GridLayout& grid, std::size_t cell, int n, std::uint64_t seed) {
+/// Points a side of both sets; 0 edge points where nothing diffracts.
+struct PointCounts {
+  int fine, edge;
+};
+
+CellPoints crossed_cell(const Tracer& tracer, const GridLayout& grid, std::size_t cell, PointCounts counts, std::uint64_t seed) {
   const Vec3 corner = grid.centre(cell) - Vec3{0.5 * grid.cell, 0.5 * grid.cell, 0};
-  std::array<std::vector<Vec3>, max_sub_points> parts;
+  std::array<bool, raster * raster> outdoor{};
   int outdoors = 0;
   for (int j = 0; j < raster; ++j)
     for (int i = 0; i < raster; ++i) {
       const Vec3 point = corner + grid.cell / raster * Vec3{i + 0.5, j + 0.5, 0};
-      if (tracer.inside_solid(point)) continue;
-      ++outdoors;
-      parts[static_cast<std::size_t>((j * n / raster) * n + i * n / raster)].push_back(point);
+      outdoors += outdoor[static_cast<std::size_t>(j * raster + i)] = !tracer.inside_solid(point);
     }
   CellPoints result;
   result.inside_fraction = 1 - double(outdoors) / (raster * raster);
   if (outdoors == raster * raster) return result;
-  for (std::uint32_t part = 0; part < static_cast<std::uint32_t>(n * n); ++part) {
-    const auto& points = parts[part];
-    if (points.empty()) continue;
-    const double u = uniform4(seed, sub_point_stream, cell, part)[0];
-    result.points.push_back({points[static_cast<std::size_t>(u * double(points.size()))], double(points.size()) / outdoors});
+  for (const bool edge : {false, true}) {
+    const int n = edge ? counts.edge : counts.fine;
+    for (int part = 0; part < n * n; ++part) {
+      std::vector<Vec3> points;
+      for (int j = 0; j < raster; ++j)
+        for (int i = 0; i < raster; ++i)
+          if (outdoor[static_cast<std::size_t>(j * raster + i)] && (j * n / raster) * n + i * n / raster == part)
+            points.push_back(corner + grid.cell / raster * Vec3{i + 0.5, j + 0.5, 0});
+      if (points.empty()) continue;
+      const double u = uniform4(seed, sub_point_stream, cell, static_cast<std::uint32_t>(2 * part + edge))[0];
+      const double weight = double(points.size()) / outdoors;
+      result.points.push_back(
+          {points[static_cast<std::size_t>(u * double(points.size()))], edge ? 0 : weight, edge ? weight : 0});
+    }
   }
   return result;
 }
@@ -102,14 +114,17 @@ CellPoints crossed_cell(const Tracer& tracer, const GridLayout& grid, std::size_
 }  // namespace
 
 int sub_points_a_side(double rays) {
-  return std::clamp(static_cast<int>(std::lround(2 * std::cbrt(rays / 1e6))), 2, raster);
+  return std::clamp(static_cast<int>(std::lround(4 * std::cbrt(rays / 1e6))), 2, 6);
 }
+
+int edge_sub_points_a_side(double rays) { return std::max(2, sub_points_a_side(rays) / 2); }
 
 CoverageGrid make_coverage_grid(const Scene& scene, const Tracer& tracer, const Plan& plan) {
   CoverageGrid grid;
   grid.layout = plan.grid;
-  const int n = sub_points_a_side(plan.request.rays);
-  const std::vector<GaussPoint> gauss = gauss_legendre(n);
+  const bool edges = plan.request.diffraction && plan.request.max_diffractions > 0 && plan.request.depth > 0;
+  const PointCounts counts{sub_points_a_side(plan.request.rays), edges ? edge_sub_points_a_side(plan.request.rays) : 0};
+  const std::vector<GaussPoint> fine = gauss_legendre(counts.fine), coarse = gauss_legendre(counts.edge);
   const std::vector<std::uint8_t> crossed = crossed_cells(scene, plan.grid);
   constexpr std::size_t block_size = 1024;
   const std::size_t cells = plan.grid.size(), blocks = (cells + block_size - 1) / block_size;
@@ -118,7 +133,7 @@ CoverageGrid make_coverage_grid(const Scene& scene, const Tracer& tracer, const 
     for (std::size_t cell = block * block_size; cell < std::min(cells, (block + 1) * block_size); ++cell) {
       CellPoints& here = found[block].emplace_back();
       if (crossed[cell]) {
-        here = crossed_cell(tracer, plan.grid, cell, n, plan.request.seed);
+        here = crossed_cell(tracer, plan.grid, cell, counts, plan.request.seed);
         if (here.inside_fraction > 0) continue;
       }
       const Vec3 centre = plan.grid.centre(cell);
@@ -126,9 +141,13 @@ CoverageGrid make_coverage_grid(const Scene& scene, const Tracer& tracer, const 
         here.inside_fraction = 1;
         continue;
       }
-      for (const GaussPoint& v : gauss)
-        for (const GaussPoint& u : gauss)
-          here.points.push_back({centre + 0.5 * plan.grid.cell * Vec3{u.position, v.position, 0}, 0.25 * u.weight * v.weight});
+      for (const auto* gauss : {&fine, &coarse})
+        for (const GaussPoint& v : *gauss)
+          for (const GaussPoint& u : *gauss) {
+            const double weight = 0.25 * u.weight * v.weight;
+            here.points.push_back({centre + 0.5 * plan.grid.cell * Vec3{u.position, v.position, 0},
+                                   gauss == &fine ? weight : 0, gauss == &fine ? 0 : weight});
+          }
     }
   });
   grid.begins.push_back(0);

@@ -16,6 +16,7 @@
 namespace grimaldi {
 namespace {
 
+constexpr auto diffraction_layer = static_cast<std::size_t>(Mechanism::diffraction);
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// Sums of one cell and band.
@@ -62,7 +63,8 @@ class CellEvaluator {
         const auto layer = static_cast<std::size_t>(mechanism_of(arrival.interactions));
         const double delay = arrival.geometry.length / plan_.speed - reference_delay;
         for (std::size_t band = 0; band < plan_.bands(); ++band) {
-          const double power = points[i].weight * received_power(arrival.field[band], polarisation);
+          const double weight = layer == diffraction_layer ? points[i].edge_weight : points[i].weight;
+          const double power = weight * received_power(arrival.field[band], polarisation);
           CellSums& sums = sums_[band];
           sums.layers[layer] += power;
           sums.power += power;
@@ -73,34 +75,40 @@ class CellEvaluator {
         }
         ++count;
       }
+      if (points[i].edge_weight == 0) continue;
       composite_.interference({arrivals_.data(), count}, polarisation, interference_);
       for (std::size_t band = 0; band < plan_.bands(); ++band) {
-        sums_[band].layers[static_cast<std::size_t>(Mechanism::interference)] += points[i].weight * interference_[band];
-        sums_[band].interference2 += points[i].weight * interference_[band] * interference_[band];
+        sums_[band].layers[static_cast<std::size_t>(Mechanism::interference)] += points[i].edge_weight * interference_[band];
+        sums_[band].interference2 += points[i].edge_weight * interference_[band] * interference_[band];
       }
     }
-    add_partial_visibility(pairs, points);
-    store(cell, points.size(), reference_delay);
+    for (std::size_t p = 0; p < pairs.size(); ++p) add_partial_visibility(p, pairs[p], points);
+    store(cell, points, reference_delay);
   }
 
  private:
-  void add_partial_visibility(std::span<const Pair> pairs, std::span<const SubPoint> points) {
-    const double n = double(points.size());
-    for (std::size_t p = 0; p < pairs.size(); ++p) {
-      double seen = 0;  // share of the cell's weight that sees the path
-      int m = 0;
-      for (std::size_t i = 0; i < points.size(); ++i)
-        if (pairs[p].visible >> i & 1) seen += points[i].weight, ++m;
-      if (m == static_cast<int>(points.size())) continue;
-      const double share = (m + 0.5) / (n + 1);
-      for (std::size_t band = 0; band < plan_.bands(); ++band) {
-        const double where_seen = partial_[p * plan_.bands() + band] / seen;
-        sums_[band].variance += where_seen * where_seen * share * (1 - share) / n;
-      }
+  /// A path that only some of its sub-points see: the spread of the yes and no.
+  void add_partial_visibility(std::size_t p, const Pair& pair, std::span<const SubPoint> points) {
+    const bool edges = count_edges(discovered_.sequences[pair.sequence]) > 0;
+    double seen = 0;  // share of the cell's weight that sees the path
+    int m = 0, n = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double weight = edges ? points[i].edge_weight : points[i].weight;
+      if (weight == 0) continue;
+      ++n;
+      if (pair.visible >> i & 1) seen += weight, ++m;
+    }
+    if (m == 0 || m == n) return;
+    const double share = (m + 0.5) / (n + 1);
+    for (std::size_t band = 0; band < plan_.bands(); ++band) {
+      const double where_seen = partial_[p * plan_.bands() + band] / seen;
+      sums_[band].variance += where_seen * where_seen * share * (1 - share) / n;
     }
   }
 
-  void store(std::size_t cell, std::size_t points, double reference_delay) {
+  void store(std::size_t cell, std::span<const SubPoint> points, double reference_delay) {
+    double edge_points = 0;
+    for (const SubPoint& point : points) edge_points += point.edge_weight > 0;
     const std::size_t cells = grid_.layout.size(), bands = plan_.bands();
     for (std::size_t band = 0; band < bands; ++band) {
       const CellSums& sums = sums_[band];
@@ -118,7 +126,7 @@ class CellEvaluator {
         squares += off * off;
       }
       const double fringe = sums.layers[static_cast<std::size_t>(Mechanism::interference)];
-      const double fringe_variance = std::max(0.0, sums.interference2 - fringe * fringe) / double(points);
+      const double fringe_variance = edge_points > 0 ? std::max(0.0, sums.interference2 - fringe * fringe) / edge_points : 0;
       map_.path_gain[at] = gain;
       map_.standard_error[at] = std::sqrt((passes - 1) / passes * squares + sums.variance + fringe_variance);
       map_.bias[at] = (passes - 1) / passes * lone;

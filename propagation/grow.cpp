@@ -83,8 +83,10 @@ class Grower {
     work.field.resize(plan_.bands());
     const double threshold = may_be_negligible ? negligible_share * known_[pair.cell] : 0;
     double power = 0;
+    const bool edges = count_edges(interactions) > 0;
     Answer answer = Answer::blocked;
     for (std::size_t i = 0; i < points.size(); ++i) {
+      if (edges && points[i].edge_weight == 0) continue;
       if (!unfolded.solve(points[i].position, wavelength_, work.geometry)) continue;
       if (threshold > 0 && power_bound(scene_, plan_, work.geometry) < threshold) {
         // The bound is smooth: one point speaks for the cell.
@@ -98,7 +100,7 @@ class Grower {
         continue;
       }
       pair.visible |= std::uint64_t(1) << i;
-      power += points[i].weight * here;
+      power += (edges ? points[i].edge_weight : points[i].weight) * here;
     }
     pair.power = static_cast<float>(power);
     return pair.visible != 0 ? Answer::arrives : answer;

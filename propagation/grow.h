@@ -16,7 +16,7 @@ namespace grimaldi {
 /// A sequence that arrives in a cell.
 struct Pair {
   std::uint32_t cell, sequence;
-  std::uint64_t visible;  ///< sub-points (bits) where it arrives
+  std::uint64_t visible;  ///< sub-points (bits) where it arrives; a path with an edge is asked at edges' points alone
   std::uint32_t passes;   ///< passes (bits) that found the patch of cells that this one belongs to
   float power;            ///< mean over the cell of its power at the first band, 1 or m⁻²
 };

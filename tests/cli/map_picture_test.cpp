@@ -42,6 +42,7 @@ Plan small_plan(std::size_t nx, std::size_t ny) {
 Result with_gains(std::vector<double> gains) {
   Result result;
   result.coverage.emplace();
+  for (const double gain : gains) result.coverage->inside_fraction.push_back(std::isnan(gain) ? 1 : 0);
   result.coverage->path_gain = std::move(gains);
   return result;
 }
@@ -198,6 +199,13 @@ TEST(MapPicture, ShowsEachSortOfCellInItsColour) {
   EXPECT_GT(hatched, 0);
 }
 
+TEST(MapPicture, DoesNotHideAFault) {
+  const Plan plan = small_plan(2, 1);
+  Result result = with_gains({nan_value, 1e-6});
+  result.coverage->inside_fraction[0] = 0.5;
+  EXPECT_EQ(cell_colour(coverage_picture(Scene{}, plan, result), 0), fault_colour);
+}
+
 TEST(MapPicture, CellsEndWhereTheirMetresEnd) {
   const Plan plan = small_plan(4, 3);
   std::vector<double> gains(12, 1e-9);
@@ -219,7 +227,9 @@ TEST(MapPicture, CellsEndWhereTheirMetresEnd) {
 TEST(MapPicture, ShowsTheSumOverTransmitters) {
   Plan plan = small_plan(2, 1);
   plan.request.transmitters.push_back(plan.request.transmitters.front());
-  const MapPicture picture = coverage_picture(Scene{}, plan, with_gains({1e-6, 1e-9, 1e-6, 1e-9}));
+  Result result = with_gains({1e-6, 1e-9, 1e-6, 1e-9});
+  result.coverage->inside_fraction.resize(2);
+  const MapPicture picture = coverage_picture(Scene{}, plan, result);
   EXPECT_EQ(cell_colour(picture, 0), colour_of(10 * std::log10(2e-6), picture.scale));
   EXPECT_EQ(cell_colour(picture, 1), colour_of(10 * std::log10(2e-9), picture.scale));
 }
