@@ -10,6 +10,8 @@ namespace {
 
 /// Two vertices of a path nearer than this are one point: no direction between them.
 constexpr double shortest_leg = 1e-6;
+/// Sine of the angle to an edge below which a ray runs along it.
+constexpr double along_edge = 1e-6;
 /// Newton's last step, m: convergence is quadratic, so what it leaves is far below a nanometre, and the length errs by its square.
 constexpr double last_step = 1e-5;
 /// Beyond an end of an edge its wave is kept while v_V is below this (physics: line 6 of the edge's law).
@@ -152,7 +154,7 @@ bool UnfoldedSequence::passage(std::size_t i, const Vec3& before, double along, 
   if (out.s_in < shortest_leg || out.s_out < shortest_leg) return false;
   const double cos_beta = dot(in, edge.direction) / out.s_in;
   out.sin_beta = std::sqrt(std::max(0.0, 1 - cos_beta * cos_beta));
-  if (out.sin_beta < 1e-6) return false;
+  if (out.sin_beta < along_edge) return false;
   // Rounding may put an end that lies on face 0 a hair below it.
   constexpr double rounding = 1e-9;
   for (auto [way, phi] : {std::pair{&in, &out.phi_in}, std::pair{&away, &out.phi_out}}) {
@@ -226,6 +228,18 @@ bool UnfoldedSequence::solve(const Vec3& receiver, double wavelength, PathGeomet
     const std::size_t last = i < edge_count_ ? edges_[i].position : n;
     if (last > first && !mirror_points(first, last, geometry)) return false;
     first = last + 1;
+  }
+  // Two edges of one corner, both passed at the corner itself, leave no leg between them.
+  for (std::size_t i = 0; i + 1 < geometry.count; ++i)
+    if (distance(geometry.points[i], geometry.points[i + 1]) < shortest_leg) return false;
+  // Nor has a ray that runs along an edge, from a corner at one end to a corner at the other, a cone about it.
+  for (std::size_t i = 0; i < edge_count_; ++i) {
+    const std::size_t here = edges_[i].position + 1;
+    const Vec3& direction = scene_->wedges.wedges[edges_[i].wedge].direction;
+    for (const std::size_t next : {here - 1, here + 1}) {
+      const Vec3 way = geometry.points[next] - geometry.points[here];
+      if (norm2(cross(direction, way)) < along_edge * along_edge * norm2(way)) return false;
+    }
   }
   return true;
 }

@@ -150,6 +150,17 @@ void list_by_triangle(const std::vector<WedgePiece>& pieces, std::size_t triangl
   for (std::size_t t = 0; t < triangle_count; ++t) wedges.triangle_wedge_begin[t + 1] += wedges.triangle_wedge_begin[t];
 }
 
+/// Forgets the vertices at which a wedge ends alone: a corner is where wedges meet.
+void keep_corners(std::size_t vertex_count, std::vector<Wedge>& wedges) {
+  std::vector<std::uint32_t> ends(vertex_count, 0);
+  for (const Wedge& wedge : wedges)
+    for (const std::uint32_t vertex : {wedge.vertex_start, wedge.vertex_end})
+      if (vertex != no_index) ++ends[vertex];
+  for (Wedge& wedge : wedges)
+    for (std::uint32_t* vertex : {&wedge.vertex_start, &wedge.vertex_end})
+      if (*vertex != no_index && ends[*vertex] < 2) *vertex = no_index;
+}
+
 }  // namespace
 
 Wedges find_wedges(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles,
@@ -176,6 +187,7 @@ Wedges find_wedges(const std::vector<Vec3>& vertices, const std::vector<std::arr
     result.wedges.push_back(piece.wedge);
     add(result.report.propagating, piece.wedge.length);
   }
+  keep_corners(vertices.size(), result.wedges);
   list_by_triangle(merged, triangles.size(), result);
   return result;
 }

@@ -24,8 +24,8 @@ struct Wedge {
   double exterior_angle;         ///< rad, nπ; 2π for a free rim
   std::uint32_t patch0, patchn;  ///< faces (equal for a free rim)
   std::uint32_t material0, materialn;
-  std::uint32_t vertex_start, vertex_end;  ///< welded vertices at its ends: wedges that share one meet in a corner;
-                                           ///< no_index where a piece was cut off
+  std::uint32_t vertex_start, vertex_end;  ///< corners at its ends: welded vertices where another wedge ends too;
+                                           ///< no_index where it ends alone
   bool free_rim = false;
   Vec3 end() const { return start + length * direction; }
   Vec3 point(double t) const { return start + t * direction; }  ///< t in m
