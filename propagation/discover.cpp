@@ -9,6 +9,7 @@
 #include "core/constants.h"
 #include "core/random.h"
 #include "propagation/face_reflection.h"
+#include "propagation/fermat.h"
 #include "propagation/launcher.h"
 #include "propagation/laws/free_space_diffraction.h"
 
@@ -24,6 +25,8 @@ constexpr double gain_floor = 1e-14;
 constexpr std::uint32_t edge_stream = 2, aim_stream = 4;
 /// Footprint of a beam over the spacing of the beams of its pass: more than ½ √2, so that every place is in some footprint.
 constexpr double footprint_share = 0.75;
+/// Near an edge the footprint is never finer than this (rad): more beams then meet each edge more often.
+constexpr double coarse_spacing = 0.014;
 /// Beams that leave an edge for one that met it: the exterior of an edge is a whole fan of directions. More where the
 /// transmitter itself sees the edge: those waves are the strong ones.
 constexpr int beams_per_first_edge = 16, beams_per_edge = 8;
@@ -124,9 +127,14 @@ struct PatchRims {
 /// One thread's walker: takes beams from birth to death and leaves records in a block.
 class Walker {
  public:
-  Walker(const Scene& scene, const Tracer& tracer, const Plan& plan, const ReflectanceTable& reflectance, const PatchRims& rims)
-      : scene_(scene), tracer_(tracer), plan_(plan), reflectance_(reflectance), rims_(rims), keep_all_(!plan.request.receivers.empty()),
-        far_(2 * distance(scene.low, scene.high) + double(plan.grid.nx + plan.grid.ny) * plan.grid.cell) {}
+  Walker(const Scene& scene, const Tracer& tracer, const Plan& plan, const Search& search, const ReflectanceTable& reflectance,
+         const PatchRims& rims)
+      : scene_(scene), tracer_(tracer), plan_(plan), search_(search),
+        most_edges_(std::min({plan.request.max_diffractions, search.most_edges, static_cast<int>(max_edges)})),
+        reflectance_(reflectance), rims_(rims), keep_all_(!plan.request.receivers.empty()),
+        far_(2 * distance(scene.low, scene.high) + double(plan.grid.nx + plan.grid.ny) * plan.grid.cell),
+        unit_gain_(plan.request.kind == WaveKind::radio ? std::pow(plan.speed / plan.frequency.front() / (4 * pi), 2)
+                                                        : 1 / (4 * pi)) {}
 
   void begin_block(double spacing, BlockRecords& records) {
     spacing_ = spacing;
@@ -182,7 +190,7 @@ class Walker {
       const Vec3 point = beam.origin + hit.distance * beam.direction;
       const bool deep = beam.depth >= request.depth;
       // Every edge that the transmitter sees has beams of its own.
-      if (!deep && beam.depth > 0 && request.diffraction && beam.diffractions < request.max_diffractions)
+      if (!deep && beam.depth > 0 && request.diffraction && beam.diffractions < most_edges_)
         meet_edges(beam, hit, point, patch_index);
       const double cosine = dot(patch.normal, beam.direction);
       const double reflected = beam.power * reflectance_(patch.material, std::abs(cosine));
@@ -200,7 +208,7 @@ class Walker {
       beam.leave1 = no_index;
       append(beam, patch_index);
       ++beam.reflections;
-      if (keep_all_) keep(beam);
+      keep_if_wanted(beam);
     }
   }
 
@@ -209,13 +217,18 @@ class Walker {
     beam.hash = extended(beam.hash, interaction);
   }
 
+  void keep_if_wanted(const Beam& beam) {
+    if (keep_all_ && beam.diffractions >= search_.fewest_edges) keep(beam);
+  }
+
   std::uint32_t keep(const Beam& beam) {
     return records_->sequences.enter(beam.hash, {beam.interactions.data(), beam.depth});
   }
 
   void record_cells(const Beam& beam, const Hit& hit) {
     const GridLayout& grid = plan_.grid;
-    if (grid.nx == 0 || beam.depth == 0) return;  // the direct wave asks every cell
+    // The direct wave asks every cell.
+    if (grid.nx == 0 || beam.depth == 0 || beam.diffractions < search_.fewest_edges) return;
     const double end = hit.triangle != no_index ? hit.distance : far_;
     const double rise = grid.z - beam.origin.z;
     if (rise * beam.direction.z > 0 && rise / beam.direction.z < end) record_cell(beam, rise / beam.direction.z, true);
@@ -244,11 +257,14 @@ class Walker {
 
   void record_cell(const Beam& beam, double t, bool crossed) {
     const GridLayout& grid = plan_.grid;
-    if (gain_at(beam, t) < gain_floor) return;
+    const double gain = gain_at(beam, t);
+    if (gain < gain_floor) return;
     const double x = (beam.origin.x + t * beam.direction.x - grid.x0) / grid.cell;
     const double y = (beam.origin.y + t * beam.direction.y - grid.y0) / grid.cell;
     if (!(x >= 0 && y >= 0 && x < double(grid.nx) && y < double(grid.ny))) return;
     const std::uint64_t cell = std::uint64_t(y) * grid.nx + std::uint64_t(x);
+    constexpr double margin = 10;  // the estimate leaves out the second leg's part of L and the shift along the edge
+    if (!search_.negligible.empty() && margin * gain * unit_gain_ < search_.negligible[cell]) return;
     if (!keys_.insert(beam.hash ^ ((2 * cell + crossed) * 0xd6e8feb86659fd93u))) return;
     records_->seeds.push_back({keep(beam), static_cast<std::uint32_t>(cell), 0, crossed});
   }
@@ -257,7 +273,7 @@ class Walker {
   /// patch and of the patches next to it (the far side of a roof is grazed, so hardly ever hit).
   void meet_edges(const Beam& beam, const Hit& hit, const Vec3& point, std::uint32_t hit_patch) {
     const Wedges& wedges = scene_.wedges;
-    const double reach = footprint_share * spacing_ * (beam.length + hit.distance);
+    const double reach = footprint_share * std::max(spacing_, coarse_spacing) * (beam.length + hit.distance);
     for (auto i = wedges.triangle_wedge_begin[hit.triangle]; i < wedges.triangle_wedge_begin[hit.triangle + 1]; ++i) {
       const std::uint32_t wedge_index = wedges.triangle_wedge[i];
       const Wedge& wedge = wedges.wedges[wedge_index];
@@ -322,7 +338,7 @@ class Walker {
     child.diffractions = static_cast<std::uint8_t>(beam.diffractions + 1);
     child.interactions = beam.interactions;
     append(child, edge_interaction(wedge_index));
-    if (keep_all_) keep(child);
+    keep_if_wanted(child);
     const int beams = beam.depth == 0 ? beams_per_first_edge : beams_per_edge;
     for (int i = 0; i < beams; ++i) {
       const double phi = draw_azimuth(wedge, phi_in, sin_beta, incident_length);
@@ -365,10 +381,13 @@ class Walker {
   const Scene& scene_;
   const Tracer& tracer_;
   const Plan& plan_;
+  const Search& search_;
+  const int most_edges_;
   const ReflectanceTable& reflectance_;
   const PatchRims& rims_;
   const bool keep_all_;
   const double far_;  ///< beyond everything, m
+  const double unit_gain_;  ///< path gain at 1 m
   double spacing_ = 0;
   BlockRecords* records_ = nullptr;
   KeySet keys_;
@@ -411,8 +430,20 @@ void unite_seeds(std::vector<Seed>& seeds) {
 
 }  // namespace
 
+void Discovered::append(const Discovered& later) {
+  const auto offset = static_cast<std::uint32_t>(sequences.size());
+  std::vector<std::uint32_t> number(later.sequences.size());
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    number[i] = sequences.enter(later.sequences.hash(i), later.sequences[i]);
+    if (number[i] >= offset) found.push_back(later.found[i]);
+  }
+  for (const Seed& seed : later.seeds) seeds.push_back({number[seed.sequence], seed.cell, seed.passes, seed.crossed});
+  segments += later.segments;
+  merge_seconds += later.merge_seconds;
+}
+
 Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
-                    const std::function<void(double)>& progress, const std::atomic<bool>* stop) {
+                    const Search& search, const std::function<void(double)>& progress, const std::atomic<bool>* stop) {
   const PlanDescription& request = plan.request;
   Discovered all;
   all.sequences.enter(empty_sequence, {});
@@ -424,7 +455,7 @@ Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, 
   const PatchRims rims(scene);
   const unsigned threads = request.threads ? request.threads : hardware_threads();
   std::vector<Walker> walkers;
-  for (unsigned i = 0; i < threads; ++i) walkers.emplace_back(scene, tracer, plan, reflectance, rims);
+  for (unsigned i = 0; i < threads; ++i) walkers.emplace_back(scene, tracer, plan, search, reflectance, rims);
   for (std::uint64_t pass = 0; needed && pass < passes; ++pass) {
     if (stop && *stop) break;
     const std::uint64_t count = (pass + 1) * total / passes - pass * total / passes;

@@ -26,6 +26,18 @@ struct Discovered {
   FluxLedger flux;                   ///< of the launched beams, shares of all
   std::uint64_t rays = 0, segments = 0;
   double merge_seconds = 0;  ///< of one thread, uniting the blocks' records
+
+  /// Adds what a later search of the same transmitter found: its sequences get the numbers after the ones there are. The ledger and the
+  /// rays stay those of the first (the beams are the same).
+  void append(const Discovered& later);
+};
+
+/// Which part of the paths to look for. Paths of two and more edges are many and mostly negligible: they are looked for when the
+/// power that simpler ones bring to each cell is known.
+struct Search {
+  int fewest_edges = 0, most_edges = 1000;
+  /// Per cell the power below which a path is negligible there; empty: none is. A beam whose estimate stays 10 dB below does not name the cell.
+  std::vector<double> negligible;
 };
 
 /// Launches the plan's rays from transmitter `transmitter` in plan.request.passes passes. A beam reflects at every face up to the depth; where it hits within
@@ -39,6 +51,6 @@ struct Discovered {
 /// Every sequence met is entered if the plan has receivers, else those that lit a cell.
 /// `progress` is told the share done. Ends early when `stop` is set.
 Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
-                    const std::function<void(double)>& progress, const std::atomic<bool>* stop);
+                    const Search& search, const std::function<void(double)>& progress, const std::atomic<bool>* stop);
 
 }  // namespace grimaldi

@@ -143,18 +143,19 @@ void in_blocks(std::size_t blocks, unsigned threads, std::vector<Workspace>& spa
 
 }  // namespace
 
-Grown grow(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter, const CoverageGrid& grid,
-           const Discovered& discovered, const std::function<void(double)>& progress, const std::atomic<bool>* stop) {
+void grow(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter, const CoverageGrid& grid,
+          const Discovered& discovered, std::size_t first_sequence, Grown& grown, const std::function<void(double)>& progress,
+          const std::atomic<bool>* stop) {
   const unsigned threads = plan.request.threads ? plan.request.threads : hardware_threads();
-  std::vector<double> known(grid.layout.size(), 0);  // mean power per cell so far, first band
+  grown.known.resize(grid.layout.size(), 0);
+  std::vector<double>& known = grown.known;
   const Grower grower(scene, tracer, plan, transmitter, grid, discovered, known);
   std::vector<Workspace> spaces(threads);
-  Grown grown;
   const auto learn = [&](std::size_t from) {
     for (std::size_t i = from; i < grown.pairs.size(); ++i) known[grown.pairs[i].cell] += grown.pairs[i].power;
   };
   constexpr std::size_t cells_per_block = 1024;
-  if (plan.request.direct) {
+  if (plan.request.direct && first_sequence == 0) {
     const std::size_t cells = grid.layout.size();
     in_blocks((cells + cells_per_block - 1) / cells_per_block, threads, spaces, stop, grown,
               [&](std::size_t block, Workspace& work, BlockPairs& out) {
@@ -165,7 +166,8 @@ Grown grow(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size
     learn(0);
   }
   const std::vector<Seed>& seeds = discovered.seeds;
-  for (std::size_t begin = 0, end = 0; begin < seeds.size() && !(stop && *stop); begin = end) {
+  const auto new_seeds = std::partition_point(seeds.begin(), seeds.end(), [&](const Seed& s) { return s.sequence < first_sequence; });
+  for (std::size_t begin = std::size_t(new_seeds - seeds.begin()), end = begin; begin < seeds.size() && !(stop && *stop); begin = end) {
     // One stage: sequences of as many edges and interactions. `starts` holds the first seed of each.
     const auto stage_of = [&](std::uint32_t sequence) {
       const auto interactions = discovered.sequences[sequence];
@@ -194,7 +196,6 @@ Grown grow(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size
   std::sort(grown.pairs.begin(), grown.pairs.end(), [](const Pair& a, const Pair& b) {
     return a.cell != b.cell ? a.cell < b.cell : a.sequence < b.sequence;
   });
-  return grown;
 }
 
 }  // namespace grimaldi

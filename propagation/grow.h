@@ -22,7 +22,8 @@ struct Pair {
 };
 
 struct Grown {
-  std::vector<Pair> pairs;  ///< sorted by cell, then sequence
+  std::vector<Pair> pairs;    ///< sorted by cell, then sequence
+  std::vector<double> known;  ///< per cell, mean power so far at the first band
   std::uint64_t shadow_rays = 0;
 };
 
@@ -30,10 +31,11 @@ struct Grown {
 /// through it): −35 dB. In Etoile a street point has some 2,000 pairs of edges, of which those below this bound carry 0.1 dB together.
 inline constexpr double negligible_share = 3.2e-4;
 
-/// Grows every sequence found, in stages of the same number of edges and of interactions, simplest first: a stage knows the power that
-/// the ones before it brought to each cell (`negligible_share`). The empty sequence asks every cell. Cells wholly inside a solid are not asked.
-/// Independent of the number of threads.
-Grown grow(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter, const CoverageGrid& grid,
-           const Discovered& discovered, const std::function<void(double)>& progress, const std::atomic<bool>* stop);
+/// Grows the sequences of `discovered` from number `first_sequence` on and adds them to `grown`, in stages of the same number of edges and of interactions, simplest first: a stage
+/// knows the power that the ones before it brought to each cell (`negligible_share`). The empty sequence, if among them, asks every cell. Cells wholly inside a
+/// solid are not asked. Independent of the number of threads.
+void grow(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter, const CoverageGrid& grid,
+          const Discovered& discovered, std::size_t first_sequence, Grown& grown, const std::function<void(double)>& progress,
+          const std::atomic<bool>* stop);
 
 }  // namespace grimaldi

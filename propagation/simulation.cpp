@@ -70,23 +70,38 @@ Result simulate(const Scene& scene, const Tracer& tracer, const Plan& plan, cons
         };
       };
       Discovered discovered;
-      {
-        const StageClock stage(figures.discover_seconds);
-        discovered = discover(scene, tracer, plan, t, report("discover", 0, 0.4), stop);
+      Grown grown;
+      // Paths of at most one edge first; then, where it is known what they bring, those of more.
+      const int most_edges = plan.request.diffraction ? std::min(plan.request.depth, plan.request.max_diffractions) : 0;
+      const bool twice = plan.request.coverage && most_edges > 1;
+      for (int search = 0; search < (twice ? 2 : 1) && !stopped(); ++search) {
+        const double from = twice ? 0.3 * search : 0, size = twice ? 0.3 + 0.2 * search : 0.8;
+        const std::size_t first_sequence = discovered.sequences.size();
+        {
+          const StageClock stage(figures.discover_seconds);
+          Search wanted;
+          if (twice) (search == 0 ? wanted.most_edges : wanted.fewest_edges) = search + 1;
+          if (search == 1)
+            for (const double power : grown.known) wanted.negligible.push_back(negligible_share * power);
+          auto found = discover(scene, tracer, plan, t, wanted, report("discover", from, from + 0.5 * size), stop);
+          if (search == 0)
+            discovered = std::move(found);
+          else
+            discovered.append(found);
+        }
+        if (!plan.request.coverage || stopped()) continue;
+        const StageClock stage(figures.grow_seconds);
+        grow(scene, tracer, plan, t, grid, discovered, search == 0 ? 0 : first_sequence, grown,
+             report("grow", from + 0.5 * size, from + size), stop);
       }
       figures.merge_seconds += discovered.merge_seconds;
       figures.rays += discovered.rays;
       figures.segments += discovered.segments;
       figures.sequences += discovered.sequences.size();
+      figures.shadow_rays += grown.shadow_rays;
+      figures.sequence_cell_pairs += grown.pairs.size();
       add_flux(figures.flux, discovered.flux, 1 / double(transmitters));
       if (plan.request.coverage && !stopped()) {
-        Grown grown;
-        {
-          const StageClock stage(figures.grow_seconds);
-          grown = grow(scene, tracer, plan, t, grid, discovered, report("grow", 0.4, 0.8), stop);
-        }
-        figures.shadow_rays += grown.shadow_rays;
-        figures.sequence_cell_pairs += grown.pairs.size();
         const StageClock stage(figures.evaluate_seconds);
         evaluate(scene, plan, t, grid, discovered, grown.pairs, *result.coverage, report("evaluate", 0.8, 1), stop);
       }

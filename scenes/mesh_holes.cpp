@@ -1,7 +1,13 @@
 #include "scenes/mesh_holes.h"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <algorithm>
+#include <cmath>
 #include <numeric>
+
+#include "core/constants.h"
+#include "scenes/surroundings.h"
+#include "scenes/wedge_sector.h"
 
 namespace grimaldi {
 namespace {
@@ -17,6 +23,25 @@ void unite(std::vector<std::uint32_t>& parent, std::uint32_t a, std::uint32_t b)
   a = root(parent, a);
   b = root(parent, b);
   parent[std::max(a, b)] = std::min(a, b);
+}
+
+/// Less steep than 45°, and the surface rises from it: what `find_pieces` takes for a foot.
+bool is_foot(const EdgeSection& section) {
+  constexpr double steepest = 0.71, least_rise = 0.17;  // sines of 45° and 10°
+  return std::abs(section.direction.z) <= steepest && section.across.z > least_rise;
+}
+
+/// Metres of the edge along which no other surface touches it, or only its own in the direction of its face.
+double open_length(EdgeSection& section) {
+  constexpr double same_angle = 0.5 * pi / 180;  // vertices 1 cm off on a face one metre wide
+  section.look_around();
+  double length = 0;
+  const auto& breaks = section.breaks();
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    const double middle = 0.5 * (breaks[i] + breaks[i + 1]);
+    if (!section.has_others(middle) || section.is_one_sided(middle, same_angle)) length += breaks[i + 1] - breaks[i];
+  }
+  return length;
 }
 
 }  // namespace
@@ -92,6 +117,35 @@ std::size_t count_holes(const std::vector<Vec3>& vertices, const std::vector<std
     holes += open ? 1 : 0;
   }
   return holes;
+}
+
+OpenRims find_open_rims(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                        const std::vector<std::array<std::uint32_t, 2>>& artificial_edges) {
+  std::vector<std::array<std::uint32_t, 2>> artificial;
+  for (const auto& [a, b] : artificial_edges) artificial.push_back({std::min(a, b), std::max(a, b)});
+  std::sort(artificial.begin(), artificial.end());
+  const EdgeTable table = make_edge_table(vertices.size(), triangles);
+  const Surroundings surroundings(vertices, triangles, table);
+  OpenRims rims;
+  std::vector<std::uint32_t> parent(vertices.size()), ends;
+  std::iota(parent.begin(), parent.end(), 0u);
+  for (const Edge& edge : table.edges) {
+    if (edge.valence() != 1) continue;
+    const std::uint32_t triangle = table.uses[edge.begin].triangle;
+    if (surroundings.ground[triangle]) continue;
+    if (std::binary_search(artificial.begin(), artificial.end(), std::array{edge.vertex0, edge.vertex1})) continue;
+    EdgeSection section(surroundings, table, edge);
+    if (surroundings.solid[triangle] && is_foot(section)) continue;
+    const double length = open_length(section);
+    if (length <= contact_distance) continue;
+    rims.length += length;
+    unite(parent, edge.vertex0, edge.vertex1);
+    ends.push_back(edge.vertex0);
+  }
+  for (std::uint32_t& end : ends) end = root(parent, end);
+  std::sort(ends.begin(), ends.end());
+  rims.count = static_cast<std::size_t>(std::unique(ends.begin(), ends.end()) - ends.begin());
+  return rims;
 }
 
 }  // namespace grimaldi

@@ -21,7 +21,7 @@ class MaterialTable {
     for (const auto& [key, material] : built_in_materials()) known_.insert(key);
     for (const auto& [key, material] : choice.overrides) known_.insert(key);
     for (const auto& [key, given] : description.materials) {
-      if (given.relative_permittivity) known_.insert(key);
+      if (given.relative_permittivity || !given.based_on.empty()) known_.insert(key);
     }
   }
 
@@ -58,21 +58,27 @@ class MaterialTable {
       material.name = key;
       return material;
     }
-    const auto built_in = built_in_materials().find(key);
     const auto given = description_.materials.find(key);
-    const bool by_numbers = given != description_.materials.end() && given->second.relative_permittivity;
+    const bool said = given != description_.materials.end();
+    const std::string& base = said && !given->second.based_on.empty() ? given->second.based_on : key;
+    const auto changed = choice_.overrides.find(base);
+    const auto built_in = built_in_materials().find(base);
     Material material;
-    if (built_in != built_in_materials().end()) {
+    if (changed != choice_.overrides.end()) {
+      material = changed->second;
+    } else if (built_in != built_in_materials().end()) {
       material = built_in->second;
-    } else if (!by_numbers) {
-      diagnostics_.error(description_.name, 0, "", fmt::format("unknown material \"{}\"", key),
-                         key == own
-                             ? "neither the scenario nor the program's table has it, and the file gives no numbers"
-                             : fmt::format("it replaces \"{}\"", own),
-                         did_you_mean(key, {known_.begin(), known_.end()}));
+    } else if (!said || !given->second.relative_permittivity) {
+      diagnostics_.error(description_.name, 0, "", fmt::format("unknown material \"{}\"", base),
+                         key != own    ? fmt::format("it replaces \"{}\"", own)
+                         : base != key ? fmt::format("\"{}\" is based on it", key)
+                                       : "neither the scenario nor the program's table has it, and the file gives no "
+                                         "numbers",
+                         did_you_mean(base, {known_.begin(), known_.end()}));
+      material = built_in_materials().at("concrete");  // in its place, so that no other fault follows from this one
     }
     material.name = key;
-    if (given != description_.materials.end()) refine(material, given->second);
+    if (said) refine(material, given->second);
     return material;
   }
 
@@ -172,6 +178,13 @@ void measure(Scene& scene) {
   }
 }
 
+void report_rims(const std::string& file, const OpenRims& rims, Diagnostics& diagnostics) {
+  if (rims.count == 0) return;
+  diagnostics.warning(file, 0, "", fmt::format("{} open rim{}, {:.1f} m", rims.count, rims.count == 1 ? "" : "s", rims.length),
+                      "edges of sheets and of holes, neither on the ground nor at the foot of a solid",
+                      "if a surface is missing there, mend the mesh");
+}
+
 void report_defects(const std::string& file, const Defects& defects, Diagnostics& diagnostics) {
   const auto warn = [&](std::size_t count, std::string_view what, std::string why) {
     if (count > 0) diagnostics.warning(file, 0, "", fmt::format("{} {}", count, what), std::move(why));
@@ -181,7 +194,6 @@ void report_defects(const std::string& file, const Defects& defects, Diagnostics
   warn(defects.flipped, "triangles turned round", "their normal pointed inward, or against their neighbours'");
   warn(defects.non_manifold_edges, "edges of three and more triangles",
        "the sectors between them are judged one by one");
-  warn(defects.holes, "open rims", "boundary loops: sheets, holes, and solids open at their foot");
 }
 
 }  // namespace
@@ -225,6 +237,10 @@ Scene build_scene(const SceneDescription& description, const MaterialChoice& cho
   scene.patches = find_patches(scene.vertices, scene.triangles, scene.triangle_material);
   scene.wedges =
       find_wedges(scene.vertices, scene.triangles, scene.triangle_material, scene.patches, mesh.artificial_edges);
+  // Without a free rim there is no open one: most scenes are spared the search.
+  if (scene.wedges.report.free_rims.count > 0)
+    scene.open_rims = find_open_rims(scene.vertices, scene.triangles, mesh.artificial_edges);
+  report_rims(description.name, scene.open_rims, diagnostics);
   scene.fingerprint = fingerprint(scene);
   return scene;
 }

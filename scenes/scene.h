@@ -11,6 +11,7 @@
 #include "core/material.h"
 #include "core/vector.h"
 #include "scenes/description.h"
+#include "scenes/mesh_holes.h"
 #include "scenes/mesh_repair.h"
 #include "scenes/patch.h"
 #include "scenes/wedge.h"
@@ -26,6 +27,7 @@ struct Scene {
   Patches patches;
   Wedges wedges;
   Defects defects;
+  OpenRims open_rims;
   Vec3 low, high;                 ///< extent
   double ground = 0;              ///< height of the lowest surface, m (0 for a scene without triangles)
   std::uint64_t fingerprint = 0;  ///< FNV-1a over vertices, triangles, materials: tells scenes apart
@@ -41,9 +43,12 @@ struct MaterialChoice {
   std::map<std::string, Material> overrides;   ///< the scenario's [[material]] tables by key
 };
 
-/// Repairs, finds patches and wedges, resolves materials: scenario over scene file over built-in table.
-/// Errors to `diagnostics`: unknown material (with did you mean), no triangles. Warnings: faces without material,
-/// defects found.
+/// Repairs, finds patches and wedges, resolves materials: scenario over scene file over built-in table. A material that
+/// the file bases on another (MaterialDescription::based_on) takes from that one, as the scenario or the table has it,
+/// what the file does not say.
+/// Errors to `diagnostics`: unknown material (with did you mean; concrete stands in for it, so that the scene can be
+/// held against a plan all the same), no triangles (the scene is empty then). Warnings: faces without material, defects
+/// found, open rims.
 Scene build_scene(const SceneDescription& description, const MaterialChoice& choice, Diagnostics& diagnostics);
 
 }  // namespace grimaldi
