@@ -23,6 +23,7 @@ constexpr const char* examples = R"(Examples:
   grimaldi coverage --scene demo-city --frequency 3.5GHz --tx 8.5,21,27 --height 1.5 --cell-size 5 --rays 1e6 --depth 3 -o out
   grimaldi profile city.toml --rx 40,-60,1.5 --rx=-8,21,1.5
   grimaldi scene city.xml --json
+  grimaldi scene street-canyon --set scene.parameters.width=30
 
 Numbers take units: 3.5GHz, 500Hz, 30dBm, 5m, 550nm; a bare number is SI.
 Exit codes: 0 done, 1 bad input or interrupted, 2 a fault of the program.)";
@@ -105,6 +106,17 @@ bool is_list_option(const std::string& key, const std::string& value) {
   return (key == "wave.frequency" || key == "propagation.mechanisms") && value.find(',') != std::string::npos;
 }
 
+void take_sets(const std::vector<std::string>& sets, Arguments& arguments, Diagnostics& diagnostics) {
+  for (const auto& set : sets) {
+    const auto equals = set.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      diagnostics.error("", 0, "--set " + set, "not KEY=VALUE", "", "write e.g. --set coverage.cell_size=5");
+    } else {
+      arguments.options.push_back({"--set " + set, set.substr(0, equals), set.substr(equals + 1)});
+    }
+  }
+}
+
 void take_run_options(const CLI::App& app, const RunOptions& run, Arguments& arguments, Diagnostics& diagnostics) {
   auto& options = arguments.options;
   const auto given = [&](const char* flag) { return app.get_option(flag)->count() > 0; };
@@ -125,14 +137,7 @@ void take_run_options(const CLI::App& app, const RunOptions& run, Arguments& arg
         {"--tx " + run.transmitters[i], fmt::format("transmitter.{}.position", i), as_list(run.transmitters[i])});
   for (std::size_t i = 0; i < run.receivers.size(); ++i)
     options.push_back({"--rx " + run.receivers[i], fmt::format("receiver.{}.position", i), as_list(run.receivers[i])});
-  for (const auto& set : run.sets) {
-    const auto equals = set.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      diagnostics.error("", 0, "--set " + set, "not KEY=VALUE", "", "write e.g. --set coverage.cell_size=5");
-    } else {
-      options.push_back({"--set " + set, set.substr(0, equals), set.substr(equals + 1)});
-    }
-  }
+  take_sets(run.sets, arguments, diagnostics);
   arguments.output = run.output;
   if (given("-o") && run.output.empty()) diagnostics.error("", 0, "-o", "an empty name", "a folder is needed");
   if (given("--threads")) {
@@ -146,7 +151,7 @@ void take_run_options(const CLI::App& app, const RunOptions& run, Arguments& arg
 }
 
 void refuse_extras(const CLI::App& app, const Arguments& arguments, Diagnostics& diagnostics) {
-  std::vector<std::string> known = {"--help"};
+  std::vector<std::string> known;
   for (const CLI::Option* option : app.get_options())
     for (const auto& name : option->get_lnames()) known.push_back("--" + name);
   for (const auto& extra : app.remaining()) {
@@ -200,6 +205,9 @@ Arguments parse_arguments(int argc, const char* const* argv, Diagnostics& diagno
   profile.footer("Writes DIR/result.h5, DIR/profiles.png, DIR/summary.json.\n\n" + std::string(examples));
   scene.allow_extras();
   scene.add_option("file", arguments.input, "a scene file, or the name of a built-in scene")->type_name("FILE|NAME");
+  std::vector<std::string> scene_sets;
+  add_texts(scene, "--set", scene_sets, "KEY=VALUE",
+            "a key of [scene] or [[material]], e.g. scene.parameters.width=30; repeatable");
   scene.add_flag("--json", arguments.json, "print JSON, nothing else");
   scene.add_flag("--quiet", arguments.quiet, "no warnings");
 
@@ -231,6 +239,7 @@ Arguments parse_arguments(int argc, const char* const* argv, Diagnostics& diagno
     refuse_extras(profile, arguments, diagnostics);
   } else if (scene.parsed()) {
     arguments.verb = Verb::scene;
+    take_sets(scene_sets, arguments, diagnostics);
     refuse_extras(scene, arguments, diagnostics);
     if (arguments.input.empty())
       diagnostics.error("", 0, "scene", "no scene given", "",

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <optional>
 
@@ -14,11 +13,10 @@
 #include "cli/profile_picture.h"
 #include "cli/progress.h"
 #include "cli/run_table.h"
+#include "cli/scene_request.h"
 #include "cli/version.h"
 #include "propagation/result_file.h"
 #include "propagation/simulation.h"
-#include "scenes/canonical.h"
-#include "scenes/scene_file.h"
 
 namespace grimaldi {
 namespace {
@@ -50,29 +48,6 @@ PlanDescription read_request(const Arguments& arguments, Diagnostics& diagnostic
   return request;
 }
 
-Scene make_scene(const PlanDescription& request, Diagnostics& diagnostics) {
-  SceneDescription description;
-  if (!request.builtin.empty()) {
-    description = canonical_scene(request.builtin, request.builtin_parameters, diagnostics);
-  } else if (!request.scene_file.empty()) {
-    description = read_scene_file(request.scene_file, diagnostics);
-  }
-  diagnostics.throw_if_errors();
-  const MaterialChoice choice{request.default_material, request.replace_materials, request.materials};
-  Scene scene = build_scene(description, choice, diagnostics);
-  diagnostics.throw_if_errors();
-  for (const auto& [key, material] : request.materials) {
-    const auto same = [&, &name = key](const Material& used) { return used.name == name; };
-    if (std::none_of(scene.materials.begin(), scene.materials.end(), same)) {
-      std::vector<std::string> names;
-      for (const auto& used : scene.materials) names.push_back(used.name);
-      diagnostics.warning(request.scenario_file.string(), 0, "material." + key, "not used",
-                          "no face of the scene is made of it", did_you_mean(key, names));
-    }
-  }
-  return scene;
-}
-
 }  // namespace
 
 int run_verb(const Arguments& arguments, Clock::time_point start) {
@@ -82,6 +57,8 @@ int run_verb(const Arguments& arguments, Clock::time_point start) {
   OutputFolder folder(arguments.output.empty() ? default_output_folder(arguments.input) : arguments.output);
   folder.check(arguments.overwrite, diagnostics);
   const Scene scene = make_scene(request, diagnostics);
+  if (scene.triangles.empty()) diagnostics.throw_if_errors();
+  // A request with faults is held against the scene too: all faults at once.
   const Tracer tracer(scene);
   const Plan plan = make_plan(request, scene, tracer, diagnostics);
   diagnostics.throw_if_errors();

@@ -2,13 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "cli/messages.h"
-#include "scenes/canonical.h"
-#include "scenes/scene_file.h"
+#include "cli/scene_request.h"
 
 namespace grimaldi {
 namespace {
@@ -64,6 +62,7 @@ std::string scene_json(const Scene& scene, const std::vector<Diagnostic>& warnin
   json["wedges"]["within_material"] = tally_json(report.within_material);
   json["wedges"]["across_materials"] = tally_json(report.across_materials);
   json["free"] = tally_json(report.free_rims);
+  json["open_rims"] = {{"count", scene.open_rims.count}, {"length_m", scene.open_rims.length}};
   json["concave"] = tally_json(report.concave);
   json["filled"] = tally_json(report.filled);
   json["propagating"] = tally_json(report.propagating);
@@ -97,25 +96,23 @@ std::string scene_table(const Scene& scene) {
   text += edge_row("  within", report.within_material, "between faces of one material");
   text += edge_row("  across", report.across_materials, "between two materials");
   text += edge_row("free", report.free_rims, "rims of open surfaces");
+  text += edge_row("open rims", {scene.open_rims.count, scene.open_rims.length},
+                   "chains of free rims, feet of solids left out");
   text += edge_row("concave", report.concave, "inner corners: no diffraction");
   text += edge_row("filled", report.filled, "of the wedges: touch another solid");
   text += edge_row("propagating", report.propagating, "edges that diffract in a run");
   const Defects& defects = scene.defects;
   text += row(
       "defects",
-      fmt::format("{} degenerate, {} duplicate, {} flipped triangles; {} edges of more than two; {} holes",
+      fmt::format("{} degenerate, {} duplicate, {} flipped triangles; {} edges of more than two; {} boundary loops",
                   defects.degenerate, defects.duplicate, defects.flipped, defects.non_manifold_edges, defects.holes));
   return text;
 }
 
 int scene_verb(const Arguments& arguments) {
   Diagnostics diagnostics;
-  const auto& names = canonical_names();
-  const bool built_in = std::find(names.begin(), names.end(), arguments.input) != names.end();
-  const SceneDescription description =
-      built_in ? canonical_scene(arguments.input, {}, diagnostics) : read_scene_file(arguments.input, diagnostics);
-  diagnostics.throw_if_errors();
-  const Scene scene = build_scene(description, {}, diagnostics);
+  const PlanDescription request = read_scene_request(arguments.input, arguments.options, diagnostics);
+  const Scene scene = make_scene(request, diagnostics);
   diagnostics.throw_if_errors();
   const std::vector<Diagnostic> warnings = warnings_of(diagnostics);
   if (!arguments.quiet) print_rest(warnings, print_warnings(warnings, 0), "grimaldi scene --json");

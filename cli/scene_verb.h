@@ -9,13 +9,15 @@
 
 namespace grimaldi {
 
-/// The scene as one JSON object, keys by contract; besides: name, ground, patches, filled, propagating, warnings.
+/// The scene as one JSON object, keys by contract; besides: name, ground, patches, open_rims, filled, propagating,
+/// warnings.
 std::string scene_json(const Scene& scene, const std::vector<Diagnostic>& warnings);
 
 /// The same for people, as a table.
 std::string scene_table(const Scene& scene);
 
-/// Reads the scene of `arguments.input` (a built-in name or a file) and prints it. Returns the exit code 0; throws
+/// Reads the scene of `arguments.input` (a built-in name or a file), with options that set keys of [scene] and
+/// [[material]], and prints it. Returns the exit code 0; throws
 /// InputErrors.
 int scene_verb(const Arguments& arguments);
 

@@ -266,7 +266,7 @@ class Walker {
     constexpr double margin = 10;  // the estimate leaves out the second leg's part of L and the shift along the edge
     if (!search_.negligible.empty() && margin * gain * unit_gain_ < search_.negligible[cell]) return;
     if (!keys_.insert(beam.hash ^ ((2 * cell + crossed) * 0xd6e8feb86659fd93u))) return;
-    records_->seeds.push_back({keep(beam), static_cast<std::uint32_t>(cell), 0, crossed});
+    records_->seeds.push_back({keep(beam), static_cast<std::uint32_t>(cell), 0, crossed, static_cast<float>(gain)});
   }
 
   /// Beams leave those edges of the hit triangle that lie in the footprint, and one edge drawn from the rims of the hit
@@ -405,7 +405,7 @@ void merge(const BlockRecords& block, std::uint32_t pass_bit, Discovered& all) {
     if (number[i] >= all.found.size()) all.found.resize(number[i] + 1, 0);
     all.found[number[i]] |= pass_bit;
   }
-  for (const Seed& seed : block.seeds) all.seeds.push_back({number[seed.sequence], seed.cell, pass_bit, seed.crossed});
+  for (const Seed& seed : block.seeds) all.seeds.push_back({number[seed.sequence], seed.cell, pass_bit, seed.crossed, seed.gain});
   all.segments += block.segments;
   all.flux.launched += block.flux.launched;
   all.flux.absorbed += block.flux.absorbed;
@@ -420,10 +420,13 @@ void unite_seeds(std::vector<Seed>& seeds) {
   });
   std::size_t kept = 0;
   for (std::size_t i = 0; i < seeds.size(); ++i) {
-    if (kept > 0 && seeds[kept - 1].sequence == seeds[i].sequence && seeds[kept - 1].cell == seeds[i].cell)
-      seeds[kept - 1].passes |= seeds[i].passes, seeds[kept - 1].crossed |= seeds[i].crossed;
-    else
+    if (kept > 0 && seeds[kept - 1].sequence == seeds[i].sequence && seeds[kept - 1].cell == seeds[i].cell) {
+      seeds[kept - 1].passes |= seeds[i].passes;
+      seeds[kept - 1].crossed |= seeds[i].crossed;
+      seeds[kept - 1].gain = std::max(seeds[kept - 1].gain, seeds[i].gain);
+    } else {
       seeds[kept++] = seeds[i];
+    }
   }
   seeds.resize(kept);
 }
@@ -437,7 +440,7 @@ void Discovered::append(const Discovered& later) {
     number[i] = sequences.enter(later.sequences.hash(i), later.sequences[i]);
     if (number[i] >= offset) found.push_back(later.found[i]);
   }
-  for (const Seed& seed : later.seeds) seeds.push_back({number[seed.sequence], seed.cell, seed.passes, seed.crossed});
+  for (const Seed& seed : later.seeds) seeds.push_back({number[seed.sequence], seed.cell, seed.passes, seed.crossed, seed.gain});
   segments += later.segments;
   merge_seconds += later.merge_seconds;
 }

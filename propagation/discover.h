@@ -17,6 +17,7 @@ namespace grimaldi {
 struct Seed {
   std::uint32_t sequence, cell, passes;
   bool crossed;  ///< a beam of the sequence crossed the cell; else one passed over or under it
+  float gain;    ///< largest estimate of the beams that said so, over the wave at 1 m
 };
 
 struct Discovered {

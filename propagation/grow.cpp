@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <complex>
 
 #include "core/blocks.h"
@@ -141,6 +142,24 @@ void in_blocks(std::size_t blocks, unsigned threads, std::vector<Workspace>& spa
   }
 }
 
+/// The seeds [first, last) of one sequence, and how strong the beams take it to be: in steps of 10 dB, 0 the strongest.
+struct SeededSequence {
+  std::size_t first, last;
+  int stage;
+};
+
+/// All sequences with seeds from number `from` on, strongest stage first, else in their order.
+std::vector<SeededSequence> seeded_sequences(const std::vector<Seed>& seeds, std::size_t from) {
+  std::vector<SeededSequence> found;
+  for (std::size_t first = from, last = from; first < seeds.size(); first = last) {
+    float gain = 0;
+    for (; last < seeds.size() && seeds[last].sequence == seeds[first].sequence; ++last) gain = std::max(gain, seeds[last].gain);
+    found.push_back({first, last, static_cast<int>(-std::log10(std::min(gain, 1.0f)))});
+  }
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.stage < b.stage; });
+  return found;
+}
+
 }  // namespace
 
 void grow(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter, const CoverageGrid& grid,
@@ -167,31 +186,19 @@ void grow(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_
   }
   const std::vector<Seed>& seeds = discovered.seeds;
   const auto new_seeds = std::partition_point(seeds.begin(), seeds.end(), [&](const Seed& s) { return s.sequence < first_sequence; });
-  for (std::size_t begin = std::size_t(new_seeds - seeds.begin()), end = begin; begin < seeds.size() && !(stop && *stop); begin = end) {
-    // One stage: sequences of as many edges and interactions. `starts` holds the first seed of each.
-    const auto stage_of = [&](std::uint32_t sequence) {
-      const auto interactions = discovered.sequences[sequence];
-      return std::pair(count_edges(interactions), interactions.size());
-    };
-    const auto stage = stage_of(seeds[begin].sequence);
-    std::vector<std::size_t> starts;
-    for (end = begin; end < seeds.size(); ++end) {
-      if (end == begin || seeds[end].sequence != seeds[end - 1].sequence) {
-        if (end > begin && stage_of(seeds[end].sequence) != stage) break;
-        starts.push_back(end);
-      }
-    }
-    starts.push_back(end);
-    const std::size_t sequences = starts.size() - 1, before = grown.pairs.size();
+  std::vector<SeededSequence> found = seeded_sequences(seeds, static_cast<std::size_t>(new_seeds - seeds.begin()));
+  for (std::size_t begin = 0, end = 0; begin < found.size() && !(stop && *stop); begin = end) {
+    while (end < found.size() && found[end].stage == found[begin].stage) ++end;
+    const std::size_t before = grown.pairs.size();
     constexpr std::size_t sequences_per_block = 16;
-    in_blocks((sequences + sequences_per_block - 1) / sequences_per_block, threads, spaces, stop, grown,
+    in_blocks((end - begin + sequences_per_block - 1) / sequences_per_block, threads, spaces, stop, grown,
               [&](std::size_t block, Workspace& work, BlockPairs& out) {
-                const std::size_t last = std::min(sequences, (block + 1) * sequences_per_block);
-                for (std::size_t i = block * sequences_per_block; i < last; ++i)
-                  grower.grow(seeds[starts[i]].sequence, seeds.data() + starts[i], seeds.data() + starts[i + 1], work, out);
+                const std::size_t first = begin + block * sequences_per_block;
+                for (std::size_t i = first; i < std::min(end, first + sequences_per_block); ++i)
+                  grower.grow(seeds[found[i].first].sequence, seeds.data() + found[i].first, seeds.data() + found[i].last, work, out);
               });
     learn(before);
-    if (progress) progress(double(end) / double(seeds.size()));
+    if (progress) progress(double(end) / double(found.size()));
   }
   std::sort(grown.pairs.begin(), grown.pairs.end(), [](const Pair& a, const Pair& b) {
     return a.cell != b.cell ? a.cell < b.cell : a.sequence < b.sequence;

@@ -27,11 +27,11 @@ struct Grown {
   std::uint64_t shadow_rays = 0;
 };
 
-/// Share of a cell's power from simpler sequences below which one sequence of two and more interactions with an edge is left out of the cell (and does not grow
+/// Share of a cell's power from stronger sequences below which one sequence of two and more interactions with an edge is left out of the cell (and does not grow
 /// through it): −35 dB. In Etoile a street point has some 2,000 pairs of edges, of which those below this bound carry 0.1 dB together.
 inline constexpr double negligible_share = 3.2e-4;
 
-/// Grows the sequences of `discovered` from number `first_sequence` on and adds them to `grown`, in stages of the same number of edges and of interactions, simplest first: a stage
+/// Grows the sequences of `discovered` from number `first_sequence` on and adds them to `grown`, strongest first by the beams' estimate, in stages of 10 dB: a stage
 /// knows the power that the ones before it brought to each cell (`negligible_share`). The empty sequence, if among them, asks every cell. Cells wholly inside a
 /// solid are not asked. Independent of the number of threads.
 void grow(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter, const CoverageGrid& grid,

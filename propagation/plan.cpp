@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/constants.h"
+#include "core/quantity.h"
 #include "propagation/coverage_grid.h"
 #include "propagation/result.h"
 #include "propagation/tracer.h"
@@ -14,18 +15,82 @@
 namespace grimaldi {
 namespace {
 
-/// The materials at the plan's bands. Each is asked once per band, so that a warning comes once.
+/// What a material's law has to say at one band.
+struct BandMessage {
+  Diagnostic message;
+  std::string band;
+};
+
+/// `text` without " at 3.5 GHz" or "3.5 GHz", whichever it has.
+std::string without_band(std::string text, const std::string& band) {
+  for (const std::string& words : {" at " + band, band})
+    if (const auto place = text.find(words); place != std::string::npos) return text.erase(place, words.size());
+  return text;
+}
+
+/// The parts of a suggestion between "; ".
+std::vector<std::string> parts_of(const std::string& text) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  for (std::size_t end; (end = text.find("; ", begin)) != std::string::npos; begin = end + 2)
+    parts.push_back(text.substr(begin, end - begin));
+  parts.push_back(text.substr(begin));
+  return parts;
+}
+
+/// One message of several that differ in the band and in the value used there: the bands listed, each value with its band.
+Diagnostic joined(const std::vector<BandMessage>& messages) {
+  Diagnostic one = messages.front().message;
+  if (messages.size() == 1) return one;
+  std::string bands;
+  for (const BandMessage& each : messages) bands += (bands.empty() ? "" : ", ") + each.band;
+  const std::string& first = messages.front().band;
+  if (const auto place = one.problem.find(first); place != std::string::npos) one.problem.replace(place, first.size(), bands);
+  std::vector<std::string> parts = parts_of(one.suggestion);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::string common = without_band(parts[i], first);
+    std::string list;
+    bool same = true;
+    for (const BandMessage& each : messages) {
+      const std::vector<std::string> other = parts_of(each.message.suggestion);
+      const std::string text = i < other.size() ? without_band(other[i], each.band) : "";
+      same = same && text == common;
+      // "used: a at 1 GHz, used: b at 2 GHz" says "used:" once.
+      const std::size_t colon = list.empty() ? std::string::npos : text.find(": ");
+      list += (list.empty() ? "" : ", ") + (colon == std::string::npos ? text : text.substr(colon + 2)) + " at " + each.band;
+    }
+    parts[i] = same ? common : list;
+  }
+  one.suggestion = fmt::format("{}", fmt::join(parts, "; "));
+  return one;
+}
+
+/// The materials at the plan's bands. What several bands of a material have in common is said once.
 std::vector<FaceMaterial> face_materials(const Plan& plan, const Scene& scene, Diagnostics& diagnostics) {
   std::vector<FaceMaterial> faces;
   for (const Material& material : scene.materials) {
     FaceMaterial& face = faces.emplace_back();
     face.thickness = material.thickness;
+    std::vector<std::vector<BandMessage>> groups;
     for (const double frequency : plan.frequency) {
+      Diagnostics heard;
       if (plan.request.kind == WaveKind::radio)
-        face.permittivity.push_back(relative_permittivity(material, frequency, diagnostics));
+        face.permittivity.push_back(relative_permittivity(material, frequency, heard));
       else
-        face.absorption.push_back(absorption_coefficient(material, frequency, diagnostics));
+        face.absorption.push_back(absorption_coefficient(material, frequency, heard));
+      const std::string band = format_frequency(frequency);
+      for (const Diagnostic& message : heard.all()) {
+        const auto like = [&](const std::vector<BandMessage>& group) {
+          const auto& [other, other_band] = group.front();
+          return other.severity == message.severity && other.why == message.why &&
+                 without_band(other.problem, other_band) == without_band(message.problem, band);
+        };
+        auto group = std::find_if(groups.begin(), groups.end(), like);
+        if (group == groups.end()) group = groups.emplace(groups.end());
+        group->push_back({message, band});
+      }
     }
+    for (const auto& group : groups) diagnostics.add(joined(group));
   }
   return faces;
 }
@@ -45,10 +110,11 @@ GridLayout grid_layout(const CoverageRequest& coverage, const Scene& scene, std:
   // A size that is a whole number of cells but for rounding gets that number.
   const double nx = std::ceil(width / grid.cell * (1 - 1e-12)), ny = std::ceil(height / grid.cell * (1 - 1e-12));
   const double needed = nx * ny * double(bytes_per_cell), limit = memory_limit();
-  if (needed > limit) {
-    const double fitting = grid.cell * std::sqrt(needed / limit);
+  if (!(needed <= limit)) {
+    // The product of the sides and of the cells may be no double any more.
+    const double fitting = std::sqrt(width) * std::sqrt(height) * std::sqrt(double(bytes_per_cell) / limit);
     diagnostics.error("", 0, "coverage.cell_size", "the grid cannot fit in memory",
-                      fmt::format("{:.0f} × {:.0f} cells need {:.3g} GB, {:.3g} GB may be used", nx, ny, needed / 1e9, limit / 1e9),
+                      fmt::format("{:.7g} × {:.7g} cells need {:.3g} GB, {:.3g} GB may be used", nx, ny, needed / 1e9, limit / 1e9),
                       fmt::format("use cells of {:.3g} m or more, or a smaller coverage.area", fitting * 1.01));
     return grid;
   }
@@ -69,6 +135,7 @@ double memory_limit() {
 
 Plan make_plan(const PlanDescription& description, const Scene& scene, const Tracer& tracer, Diagnostics& diagnostics) {
   Plan plan;
+  const std::string file = description.scenario_file.string();
   plan.request = description;
   plan.speed = wave_speed(description.kind, description.air);
   plan.frequency = description.frequency;
@@ -87,22 +154,24 @@ Plan make_plan(const PlanDescription& description, const Scene& scene, const Tra
     plan.grid = grid_layout(*description.coverage, scene, bytes, diagnostics);
   }
   for (const Transmitter& transmitter : description.transmitters) {
+    if (!is_finite(transmitter.position)) continue;  // its fault has been told
     const std::string option = "transmitter." + transmitter.name + ".position";
     if (tracer.inside_solid(transmitter.position))
-      diagnostics.error("", 0, option, "the transmitter is inside a solid",
+      diagnostics.error(file, 0, option, "the transmitter is inside a solid",
                         fmt::format("an odd number of surfaces lies straight above {}", point_text(transmitter.position)),
                         "move it out of the building, for instance above the roof");
     else if (transmitter.position.z < scene.ground)
-      diagnostics.warning("", 0, option, "the transmitter is below the ground",
+      diagnostics.warning(file, 0, option, "the transmitter is below the ground",
                           fmt::format("z = {:g} m, the lowest surface is at {:g} m", transmitter.position.z, scene.ground));
   }
   for (const Receiver& receiver : description.receivers) {
+    if (!is_finite(receiver.position)) continue;
     const std::string option = "receiver." + receiver.name + ".position";
     if (tracer.inside_solid(receiver.position))
-      diagnostics.warning("", 0, option, "the receiver is inside a solid",
+      diagnostics.warning(file, 0, option, "the receiver is inside a solid",
                           fmt::format("an odd number of surfaces lies straight above {}", point_text(receiver.position)));
     else if (receiver.position.z < scene.ground)
-      diagnostics.warning("", 0, option, "the receiver is below the ground",
+      diagnostics.warning(file, 0, option, "the receiver is below the ground",
                           fmt::format("z = {:g} m, the lowest surface is at {:g} m", receiver.position.z, scene.ground));
   }
   return plan;

@@ -46,7 +46,8 @@ struct Plan {
 
 /// Checks `description` against `scene` and works out the above. Errors to `diagnostics`: a transmitter inside a solid, a material that knows
 /// nothing of a frequency, a grid that cannot fit in memory (more than `memory_limit` bytes for all results; says how many cells and what cell size would fit),
-/// an empty grid. Warnings: a receiver inside a solid, P.2040 outside its range, a transmitter or receiver below the ground.
+/// an empty grid. It may be held against a description with faults, to tell those of both at once: what is not finite is passed over. Warnings, one
+/// for all bands of a material: a receiver inside a solid, P.2040 outside its range, a transmitter or receiver below the ground.
 Plan make_plan(const PlanDescription& description, const Scene& scene, const Tracer& tracer, Diagnostics& diagnostics);
 
 /// Three quarters of the machine's physical memory, bytes.

@@ -10,7 +10,9 @@
 #include "propagation/plan_sections.h"
 #include "propagation/scenario_reader.h"
 #include "propagation/scenario_tree.h"
+#include "propagation/sequence.h"
 #include "scenes/canonical.h"
+#include "scenes/file_contents.h"
 #include "scenes/scene_file.h"
 
 namespace grimaldi {
@@ -94,12 +96,15 @@ void read_scene_file_key(ScenarioReader& reader, ScenarioNode& node, const fs::p
   if (ends_with_one_of(*name, later))
     return reader.not_in_this_version(node, *name, fmt::format("known: {}", fmt::join(scene_file_endings(), ", ")));
   const fs::path file = (folder / *name).lexically_normal();
-  std::error_code fault;
-  if (!fs::exists(file, fault))
-    return reader.fault(node, "no such file", file.string(),
-                        folder.empty() ? "" : "a relative name counts from the scenario's folder");
-  if (fs::is_directory(file, fault))
+  std::error_code unknown;
+  if (fs::is_directory(file, unknown))
     return reader.fault(node, "not a file", file.string() + " is a folder", "name the scene in it");
+  if (const auto fault = file_fault(file)) {
+    // A name without an ending may be that of a built-in scene, misspelt.
+    const std::string built_in = file.has_extension() ? "" : did_you_mean(*name, canonical_names());
+    return reader.fault(node, fault->problem, file.string() + ": " + fault->why,
+                        built_in.starts_with("did you mean") ? built_in : fault->suggestion);
+  }
   plan.scene_file = file;
   node.kind = Kind::text;
   node.text = fs::absolute(file).lexically_normal().string();
@@ -145,8 +150,7 @@ void read_propagation_section(ScenarioReader& reader, const ScenarioNode& root, 
   const ScenarioNode* section = reader.table(root, "propagation");
   if (section == nullptr) return;
   reader.check_keys(*section, {"depth", "max_reflections", "max_diffractions", "mechanisms", "diffraction"});
-  // A path of a hundred interactions is below every dynamic range; more is a slip of the pen.
-  reader.read(*section, "depth", 0, 100, plan.depth);
+  reader.read(*section, "depth", 0, static_cast<std::int64_t>(max_depth), plan.depth);
   reader.read(*section, "max_reflections", 0, 1000, plan.max_reflections);
   reader.read(*section, "max_diffractions", 0, 1000, plan.max_diffractions);
   using enum DiffractionModel;
@@ -180,6 +184,21 @@ void read_budget_section(ScenarioReader& reader, const ScenarioNode& root, PlanD
       plan.seed = static_cast<std::uint64_t>(*value);
   // Two passes are the fewest that tell an error; the mask of the passes that found a path has 32 places.
   reader.read(*section, "passes", 2, 32, plan.passes);
+}
+
+PlanDescription read_scene_request(const std::string& scene, const std::vector<PlanOption>& options,
+                                   Diagnostics& diagnostics) {
+  PlanDescription plan;
+  const auto& names = canonical_names();
+  const bool built_in = std::find(names.begin(), names.end(), scene) != names.end();
+  ScenarioNode root;
+  lay_options(root, {{scene, built_in ? "scene.builtin" : "scene.file", scene}}, diagnostics);
+  lay_options(root, options, diagnostics);
+  ScenarioReader reader("", diagnostics);
+  reader.check_keys(root, {"scene", "material"});
+  read_scene_section(reader, root, {}, plan);
+  read_materials(reader, root, {}, plan);
+  return plan;
 }
 
 PlanDescription read_plan(const fs::path& file, const std::vector<PlanOption>& options, Diagnostics& diagnostics) {

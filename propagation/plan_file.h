@@ -108,4 +108,9 @@ struct PlanOption {
 PlanDescription read_plan(const std::filesystem::path& file, const std::vector<PlanOption>& options,
                           Diagnostics& diagnostics);
 
+/// The part of a plan that makes a scene: `scene`, a file or the name of a built-in scene, with `options` that set keys
+/// of [scene] and [[material]] laid over it. Faults as in `read_plan`; any other key is one.
+PlanDescription read_scene_request(const std::string& scene, const std::vector<PlanOption>& options,
+                                   Diagnostics& diagnostics);
+
 }  // namespace grimaldi

@@ -176,6 +176,7 @@ void read_materials(ScenarioReader& reader, ScenarioNode& root, const fs::path& 
   if (members.empty()) return;
   for (ScenarioNode& member : root.find("material")->children) {
     if (member.kind != Kind::table) continue;
+    const std::size_t faults_before = reader.error_count();
     reader.check_keys(member, {"name", "relative_permittivity", "conductivity", "thickness", "table", "absorption"},
                       {"scattering", "flow_resistivity"});
     const ScenarioNode* name_node = member.find("name");
@@ -218,6 +219,11 @@ void read_materials(ScenarioReader& reader, ScenarioNode& root, const fs::path& 
     }
     if (member.find("conductivity") != nullptr && !material.permittivity && material.radio.empty())
       reader.missing(member, "relative_permittivity", "conductivity alone is no material", "give both");
+    if (reader.error_count() > faults_before) {
+      // What its values would have covered is not known: nothing more is to be said of it.
+      material.permittivity = material.conductivity = Spectrum{{1e9}, {1.0}};
+      material.absorption = Spectrum{{1000.0}, {0.0}};
+    }
     plan.materials[key] = std::move(material);
   }
 }

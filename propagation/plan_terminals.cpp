@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "propagation/plan_sections.h"
@@ -13,8 +14,11 @@ namespace {
 
 constexpr const char* a_position = "east, north, up in metres";
 
+// Sets `position`, to NaN after a fault: no place of its own is then judged against the scene.
 void read_position(ScenarioReader& reader, const ScenarioNode& table, const char* option, Vec3& position) {
   const ScenarioNode* node = table.find("position");
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  position = {unknown, unknown, unknown};
   if (node == nullptr) {
     if (table.find("location") == nullptr)
       reader.missing(table, "position", "nothing says where it is",
@@ -150,11 +154,13 @@ void read_coverage_section(ScenarioReader& reader, const ScenarioNode& root, Pla
   if (const ScenarioNode* node = section->find("area")) {
     const auto values = reader.numbers(*node, Dimension::length, 4, "xmin, ymin, xmax, ymax in metres");
     if (values.size() == 4) {
-      if (values[0] >= values[2] || values[1] >= values[3])
+      if (values[0] >= values[2] || values[1] >= values[3]) {
         reader.fault(*node, "an empty area",
                      fmt::format("x from {} to {}, y from {} to {}", values[0], values[2], values[1], values[3]),
                      "write [xmin, ymin, xmax, ymax]");
-      coverage.area = {values[0], values[1], values[2], values[3]};
+      } else {
+        coverage.area = {values[0], values[1], values[2], values[3]};
+      }
     }
   }
   read_polarisation(reader, *section, plan, true, coverage.polarisation);

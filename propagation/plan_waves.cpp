@@ -97,11 +97,14 @@ std::vector<std::size_t> read_wave_section(ScenarioReader& reader, const Scenari
                      "set wave.frequency = \"3.5GHz\", or give --frequency 3.5GHz");
     return {};
   }
+  const std::size_t faults_before = reader.error_count();
   reader.check_keys(
       *wave, {"kind", "frequency", "wavelength", "octaves", "third_octaves", "temperature", "humidity", "pressure"});
   reader.read<WaveKind>(*wave, "kind", {{"radio", WaveKind::radio}, {"acoustic", WaveKind::acoustic}}, plan.kind);
   read_air(reader, *wave, plan.air);
   const std::vector<double> given = read_frequencies(reader, *wave, plan);
+  // Of another wave than the one meant the materials and the powers would be judged wrongly: then not at all.
+  if (reader.error_count() > faults_before) return {};
   std::vector<std::size_t> order(given.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return given[a] < given[b]; });

@@ -30,6 +30,12 @@ void ScenarioReader::add(Severity severity, const ScenarioNode& node, std::strin
                     std::move(problem), std::move(why), std::move(suggestion)});
 }
 
+std::size_t ScenarioReader::error_count() const {
+  const auto& all = diagnostics_.all();
+  return static_cast<std::size_t>(
+      std::count_if(all.begin(), all.end(), [](const Diagnostic& one) { return one.severity == Severity::error; }));
+}
+
 void ScenarioReader::fault(const ScenarioNode& node, std::string problem, std::string why, std::string suggestion) {
   add(Severity::error, node, std::move(problem), std::move(why), std::move(suggestion));
 }

@@ -76,6 +76,8 @@ class ScenarioReader {
   }
 
   const std::string& file() const { return file_; }
+  /// Errors told so far, those of other readers of the same list included.
+  std::size_t error_count() const;
   Diagnostics& diagnostics() { return diagnostics_; }
   /// The place of the node's text among `words`.
   std::optional<std::size_t> word(const ScenarioNode& node, const std::vector<std::string>& words,

@@ -47,9 +47,10 @@ TEST(Reflection, HalfSpaceAgainstReference) {
 TEST(Reflection, SlabAgainstReference) {
   const auto rows = reference_rows("radio/slab_coefficients.csv");
   if (rows.empty()) GTEST_SKIP() << "needs ../shared/reference/radio/slab_coefficients.csv";
+  int compared = 0;
   double worst = 0;
   for (const auto& row : rows) {
-    ASSERT_EQ(row[2], "P.2040-3") << row[0];
+    if (row[2] != "P.2040-3") continue;  // the table is that of P.2040-3
     Diagnostics diagnostics;
     const double frequency = std::stod(row[3]) * 1e9;
     const Complex eta = relative_permittivity(built_in_materials().at(material_key(row[1])), frequency, diagnostics);
@@ -58,9 +59,11 @@ TEST(Reflection, SlabAgainstReference) {
     const double error = std::max(std::abs(r.te - Complex(std::stod(row[6]), std::stod(row[7]))),
                                   std::abs(r.tm - Complex(std::stod(row[8]), std::stod(row[9]))));
     worst = std::max(worst, error);
+    ++compared;
     EXPECT_LT(error, 1e-12) << row[0];
   }
-  std::printf("slab: %zu rows, largest error %.1e\n", rows.size(), worst);
+  std::printf("slab: %d rows, largest error %.1e\n", compared, worst);
+  EXPECT_GT(compared, 40);
 }
 
 TEST(Reflection, BrewsterAngleAgainstReference) {

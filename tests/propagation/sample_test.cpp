@@ -1,0 +1,159 @@
+// The sampled estimator against the connected map, where both apply: power counted along beams, and fields at points.
+
+#include "propagation/sample.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "core/constants.h"
+#include "tests/propagation/runs.h"
+
+namespace grimaldi {
+namespace {
+
+constexpr auto diffraction_layer = static_cast<std::size_t>(Mechanism::diffraction);
+
+struct SampledRun {
+  SampledLayer layer;
+  CoverageGrid grid;
+};
+
+SampledRun sampled(const Scene& scene, const PlanDescription& description, std::uint64_t samples, const SampledClasses& classes = {}) {
+  const Tracer tracer(scene);
+  Diagnostics diagnostics;
+  const Plan plan = make_plan(description, scene, tracer, diagnostics);
+  diagnostics.throw_if_errors();
+  SampledRun run{{}, make_coverage_grid(scene, tracer, plan)};
+  run.layer = sample_diffraction(scene, tracer, plan, 0, run.grid, samples, 0, classes);
+  return run;
+}
+
+/// The diffraction layer of the connected map, each cell as the mean of parts × parts cells.
+std::vector<double> connected(const Scene& scene, PlanDescription description, int parts) {
+  const double cell = description.coverage->cell_size;
+  description.coverage->cell_size /= parts;
+  const Tracer tracer(scene);
+  Diagnostics diagnostics;
+  const Plan plan = make_plan(description, scene, tracer, diagnostics);
+  diagnostics.throw_if_errors();
+  const Result result = simulate(scene, tracer, plan);
+  const CoverageMap& map = *result.coverage;
+  const GridLayout& fine = plan.grid;
+  const auto n = static_cast<std::size_t>(parts), nx = fine.nx / n, ny = fine.ny / n;
+  EXPECT_EQ(nx * n, fine.nx);
+  EXPECT_EQ(ny * n, fine.ny);
+  EXPECT_NEAR(fine.cell * parts, cell, 1e-9);
+  std::vector<double> gain(nx * ny, 0), outdoors(nx * ny, 0);
+  for (std::size_t c = 0; c < fine.size(); ++c) {
+    if (map.inside_fraction[c] >= 1) continue;
+    const std::size_t at = (c / fine.nx / n) * nx + c % fine.nx / n;
+    gain[at] += (1 - map.inside_fraction[c]) * map.mechanism_gain[diffraction_layer * fine.size() + c];
+    outdoors[at] += 1 - map.inside_fraction[c];
+  }
+  for (std::size_t i = 0; i < gain.size(); ++i) gain[i] = outdoors[i] > 0 ? gain[i] / outdoors[i] : 0;
+  return gain;
+}
+
+struct Comparison {
+  double chi2 = 0, total_sampled = 0, total_connected = 0, total_error2 = 0;
+  int cells = 0;
+  double ratio() const { return total_sampled / total_connected; }
+  double ratio_error() const { return std::sqrt(total_error2) / total_connected; }
+};
+
+/// Cells with at least 100 samples, so that their standard error is known to some 10 %; `slack` = relative error of the connected map's cell means.
+Comparison compare(const SampledRun& run, const std::vector<double>& expected, double slack, double least_gain = 0) {
+  Comparison c;
+  EXPECT_EQ(run.layer.gain.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    if (run.grid.inside_fraction[i] > 0) continue;
+    c.total_sampled += run.layer.gain[i];
+    c.total_connected += expected[i];
+    c.total_error2 += run.layer.standard_error[i] * run.layer.standard_error[i];
+    if (run.layer.hits[i] < 100 || expected[i] < least_gain) continue;
+    const double error = run.layer.standard_error[i], off = run.layer.gain[i] - expected[i];
+    c.chi2 += off * off / (error * error + slack * slack * expected[i] * expected[i]);
+    ++c.cells;
+  }
+  return c;
+}
+
+void print(const char* name, const Comparison& c) {
+  std::printf("%s: %d cells, chi2/cells %.3f, total sampled/connected %.5f +- %.5f\n", name, c.cells, c.chi2 / c.cells, c.ratio(), c.ratio_error());
+}
+
+class HalfPlaneSampled : public testing::TestWithParam<std::pair<WaveKind, double>> {};
+
+TEST_P(HalfPlaneSampled, AgreesWithTheConnectedMap) {
+  const auto [kind, frequency] = GetParam();
+  const Scene scene = test::built_in("half-plane", {{"length", 400}, {"depth", 100}});
+  PlanDescription plan = test::plan_for(kind, frequency, {-40, 0, -3});
+  plan.reflection = false;
+  plan.direct = false;
+  plan.depth = 1;
+  plan.rays = 4e6;  // 3 × 3 points a cell for edges' waves
+  plan.coverage = CoverageRequest{};
+  plan.coverage->height = 90;  // z = −10: the screen's foot is the scene's lowest height
+  plan.coverage->cell_size = 5;
+  plan.coverage->area = {2.5, -50, 62.5, 50};
+  const SampledRun run = sampled(scene, plan, 8'000'000);
+  const Comparison c = compare(run, connected(scene, plan, 1), 0);
+  print(kind == WaveKind::radio ? "half-plane, radio" : "half-plane, sound", c);
+  EXPECT_GT(c.cells, 200);
+  // χ² of n cells has a spread of √(2n): 4 of them. (Cells share samples' weights only through the same beams: one cell a beam.)
+  EXPECT_NEAR(c.chi2 / c.cells, 1, 4 * std::sqrt(2.0 / c.cells));
+  EXPECT_NEAR(c.ratio(), 1, 0.01);
+}
+
+INSTANTIATE_TEST_SUITE_P(Waves, HalfPlaneSampled,
+                         testing::Values(std::pair{WaveKind::radio, 1e9}, std::pair{WaveKind::acoustic, 500.0}),
+                         [](const auto& p) { return p.param.first == WaveKind::radio ? "radio" : "sound"; });
+
+/// Rigid walls, a source in a side street and the street that it does not see.
+class StreetCanyonSampled : public testing::Test {
+ protected:
+  Scene scene() const {
+    MaterialChoice choice;
+    choice.replace = {{"*", "metal"}};
+    Material metal = built_in_materials().at("metal");
+    metal.absorption = Spectrum{{1000}, {0}};
+    choice.overrides = {{"metal", metal}};
+    return test::built_in("street-canyon", {}, choice);
+  }
+  PlanDescription plan(int depth) const {
+    PlanDescription plan = test::plan_for(WaveKind::acoustic, 1000, {1, 19, 8});
+    plan.direct = false;
+    plan.depth = depth;
+    plan.max_diffractions = 1;
+    plan.rays = 4e6;
+    plan.coverage = CoverageRequest{};
+    plan.coverage->cell_size = 4;
+    plan.coverage->area = {-40, -8, 40, 8};
+    return plan;
+  }
+};
+
+TEST_F(StreetCanyonSampled, EdgesAgree) {
+  const Scene scene = this->scene();
+  const SampledRun run = sampled(scene, plan(1), 8'000'000);
+  const Comparison c = compare(run, connected(scene, plan(1), 4), 0);
+  print("street canyon, E", c);
+  EXPECT_GT(c.cells, 60);
+  EXPECT_NEAR(c.chi2 / c.cells, 1, 4 * std::sqrt(2.0 / c.cells));
+  EXPECT_NEAR(c.ratio(), 1, 0.01);
+}
+
+TEST_F(StreetCanyonSampled, EdgesAndOneReflectionAgree) {
+  const Scene scene = this->scene();
+  const SampledRun run = sampled(scene, plan(2), 8'000'000, {1, 1});
+  const Comparison c = compare(run, connected(scene, plan(2), 4), 0);
+  print("street canyon, E + ER + RE", c);
+  const SampledRun after = sampled(scene, plan(2), 8'000'000, {0, 1});
+  print("street canyon, E + ER alone", compare(after, connected(scene, plan(2), 4), 0));
+  EXPECT_GT(c.cells, 60);
+  EXPECT_NEAR(c.chi2 / c.cells, 1, 4 * std::sqrt(2.0 / c.cells));
+  EXPECT_NEAR(c.ratio(), 1, 0.01);
+}
+
+}  // namespace
+}  // namespace grimaldi
