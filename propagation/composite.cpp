@@ -50,7 +50,16 @@ double received_power(const std::array<std::complex<double>, 2>& field, Polarisa
   return correlation(field, field, polarisation);
 }
 
-void CompositeSum::gather_members(std::span<const Arrival> arrivals) {
+std::uint32_t CompositeSum::node_of(SequenceHash composite, std::span<const Arrival> arrivals) {
+  for (std::uint32_t a = 0; a < arrivals.size(); ++a)
+    if (arrivals[a].hash == composite) return a;
+  for (std::uint32_t i = 0; i < absent_.size(); ++i)
+    if (absent_[i] == composite) return static_cast<std::uint32_t>(arrivals.size()) + i;
+  absent_.push_back(composite);
+  return static_cast<std::uint32_t>(arrivals.size() + absent_.size() - 1);
+}
+
+void CompositeSum::tie_to_composites(std::span<const Arrival> arrivals) {
   const double longest = 2 * pi / plan_->wavenumber.front();
   for (std::uint32_t a = 0; a < arrivals.size(); ++a) {
     const Arrival& arrival = arrivals[a];
@@ -64,56 +73,15 @@ void CompositeSum::gather_members(std::span<const Arrival> arrivals) {
       for (std::size_t kind = 0; kind < kinds; ++kind) {
         const double v = boundary_parameter(*scene_, arrival.geometry, e, bounded[kind].first, longest);
         if (v >= no_coherence) continue;
-        members_.push_back({without_edge(arrival.interactions, position, bounded[kind].second), a,
-                            static_cast<std::uint32_t>(weights_.size())});
+        const std::uint32_t node = node_of(without_edge(arrival.interactions, position, bounded[kind].second), arrivals);
+        ties_.push_back({node, a, static_cast<std::uint32_t>(weights_.size())});
         for (const double k : plan_->wavenumber) weights_.push_back(coherence(v * std::sqrt(k / plan_->wavenumber.front())));
       }
     }
   }
-  std::sort(members_.begin(), members_.end(), [](const Member& a, const Member& b) {
-    return a.composite != b.composite ? a.composite < b.composite : a.arrival < b.arrival;
-  });
 }
 
-void CompositeSum::add_pair(std::uint32_t a, std::uint32_t b, const double* ta, const double* tb) {
-  if (a == b) return;
-  pairs_.push_back({std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(weights_.size())});
-  for (std::size_t band = 0; band < plan_->bands(); ++band)
-    weights_.push_back((ta ? ta[band] : 1.0) * (tb ? tb[band] : 1.0));
-}
-
-void CompositeSum::pair_members(std::span<const Arrival> arrivals) {
-  const std::size_t bands = plan_->bands();
-  // Weights are read while pairs append to the same vector: no reallocation in between.
-  std::size_t largest = 0;
-  for (std::size_t i = 0, j = 0; i < members_.size(); i = j) {
-    for (j = i; j < members_.size() && members_[j].composite == members_[i].composite;) ++j;
-    largest += (j - i) * (j - i + 1);
-  }
-  weights_.reserve(weights_.size() + (largest + members_.size() * members_.size()) * bands);
-
-  // Per member the bounded wave of its composite, if it arrives.
-  std::vector<std::uint32_t> bounded(members_.size(), no_index);
-  for (std::size_t i = 0, j = 0; i < members_.size(); i = j) {
-    std::uint32_t wave = no_index;
-    for (std::uint32_t a = 0; a < arrivals.size(); ++a)
-      if (arrivals[a].hash == members_[i].composite) wave = a;
-    for (j = i; j < members_.size() && members_[j].composite == members_[i].composite; ++j) {
-      bounded[j] = wave;
-      const double* t = weights_.data() + members_[j].weights;
-      if (wave != no_index) add_pair(wave, members_[j].arrival, nullptr, t);
-      for (std::size_t other = i; other < j; ++other)
-        add_pair(members_[other].arrival, members_[j].arrival, weights_.data() + members_[other].weights, t);
-    }
-  }
-  // Two bounded waves of one edge, direct and reflected near grazing.
-  for (std::size_t i = 0; i < members_.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (members_[i].arrival == members_[j].arrival && bounded[i] != no_index && bounded[j] != no_index)
-        add_pair(bounded[i], bounded[j], weights_.data() + members_[i].weights, weights_.data() + members_[j].weights);
-}
-
-void CompositeSum::pair_corners(std::span<const Arrival> arrivals) {
+void CompositeSum::tie_corners(std::span<const Arrival> arrivals) {
   struct End {
     SequenceHash rest;
     std::uint32_t vertex, arrival;
@@ -135,34 +103,81 @@ void CompositeSum::pair_corners(std::span<const Arrival> arrivals) {
   }
   for (std::size_t i = 0; i < ends.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (ends[i].rest == ends[j].rest && ends[i].vertex == ends[j].vertex)
-        add_pair(ends[i].arrival, ends[j].arrival, nullptr, nullptr);
+      if (ends[i].rest == ends[j].rest && ends[i].vertex == ends[j].vertex && ends[i].arrival != ends[j].arrival) {
+        ties_.push_back({ends[j].arrival, ends[i].arrival, static_cast<std::uint32_t>(weights_.size())});
+        weights_.insert(weights_.end(), plan_->bands(), 1.0);
+      }
+}
+
+std::uint32_t CompositeSum::root_of(std::uint32_t node) {
+  while (root_[node] != node) node = root_[node] = root_[root_[node]];
+  return node;
+}
+
+void CompositeSum::span_tree() {
+  std::sort(ties_.begin(), ties_.end(), [&](const Tie& x, const Tie& y) {
+    if (weights_[x.weights] != weights_[y.weights]) return weights_[x.weights] > weights_[y.weights];
+    return x.a != y.a ? x.a < y.a : x.b < y.b;
+  });
+  const std::size_t nodes = arrivals_ + absent_.size();
+  root_.resize(nodes);
+  for (std::uint32_t i = 0; i < nodes; ++i) root_[i] = i;
+  // Kruskal; the kept ties as linked lists of neighbours.
+  first_.assign(nodes, no_index);
+  next_.clear();
+  tie_of_.clear();
+  for (std::uint32_t t = 0; t < ties_.size(); ++t) {
+    const std::uint32_t a = root_of(ties_[t].a), b = root_of(ties_[t].b);
+    if (a == b) continue;
+    root_[std::max(a, b)] = std::min(a, b);
+    for (const std::uint32_t node : {ties_[t].a, ties_[t].b}) {
+      next_.push_back(first_[node]);
+      first_[node] = static_cast<std::uint32_t>(tie_of_.size());
+      tie_of_.push_back(t);
+    }
+  }
+  branches_.clear();
+  for (std::uint32_t root = 0; root < nodes; ++root) {
+    if (root_of(root) != root || first_[root] == no_index) continue;
+    branches_.push_back({root, no_index, 0});
+    for (std::size_t i = branches_.size() - 1; i < branches_.size(); ++i) {
+      const Branch here = branches_[i];
+      for (std::uint32_t link = first_[here.node]; link != no_index; link = next_[link]) {
+        const Tie& tie = ties_[tie_of_[link]];
+        const std::uint32_t other = tie.a == here.node ? tie.b : tie.a;
+        if (other != here.parent) branches_.push_back({other, here.node, tie.weights});
+      }
+    }
+  }
 }
 
 void CompositeSum::interference(std::span<const Arrival> arrivals, Polarisation polarisation, std::span<double> out) {
   std::fill(out.begin(), out.end(), 0.0);
-  members_.clear();
-  pairs_.clear();
+  ties_.clear();
   weights_.clear();
+  absent_.clear();
+  arrivals_ = arrivals.size();
   if (arrivals.size() < 2) return;
-  gather_members(arrivals);
-  pair_members(arrivals);
-  pair_corners(arrivals);
-  std::sort(pairs_.begin(), pairs_.end(), [](const Pair& x, const Pair& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
-  const std::size_t bands = plan_->bands();
-  for (std::size_t i = 0, j = 0; i < pairs_.size(); i = j) {
-    for (std::size_t band = 0; band < bands; ++band) {
-      double weight = 0;
-      for (j = i; j < pairs_.size() && pairs_[j].a == pairs_[i].a && pairs_[j].b == pairs_[i].b; ++j)
-        weight = std::max(weight, weights_[pairs_[j].weights + band]);
-      if (weight > 0)
-        out[band] += 2 * weight * correlation(arrivals[pairs_[i].a].field[band], arrivals[pairs_[i].b].field[band], polarisation);
+  tie_to_composites(arrivals);
+  tie_corners(arrivals);
+  span_tree();
+  for (std::size_t band = 0; band < plan_->bands(); ++band) {
+    // From the leaves: a node's sum is its own wave and its branches' sums, each times the weight of its tie.
+    sums_.assign(arrivals_ + absent_.size(), {});
+    for (std::size_t a = 0; a < arrivals_; ++a) sums_[a] = arrivals[a].field[band];
+    for (std::size_t i = branches_.size(); i-- > 0;) {
+      const Branch& branch = branches_[i];
+      if (branch.parent == no_index) continue;
+      const double weight = weights_[branch.weights + band];
+      auto& into = sums_[branch.parent];
+      const std::array<std::complex<double>, 2> part{weight * sums_[branch.node][0], weight * sums_[branch.node][1]};
+      out[band] += 2 * correlation(into, part, polarisation);
+      for (std::size_t p = 0; p < 2; ++p) into[p] += part[p];
     }
-  }
-  for (std::size_t band = 0; band < bands; ++band) {
+    // A null of the field may come out a rounding error below zero.
     double powers = 0;
     for (const Arrival& arrival : arrivals) powers += received_power(arrival.field[band], polarisation);
-    out[band] = std::max(out[band], -powers);
+    out[band] = std::max(out[band], -powers * (1 - 1e-12));
   }
 }
 

@@ -32,16 +32,15 @@ double received_power(const std::array<std::complex<double>, 2>& field, Polarisa
 
 /// The cross terms of all arrivals at one point, per band: 2 Σ γ_ab Re(a b*).
 ///
-/// An edge bounds up to three waves: the one that it cuts off (the sequence without the edge) and the ones that its two faces
-/// reflect (the sequence with the face in place of the edge). The bounded wave, where it arrives, and the waves of all edges that bound it form one composite.
-/// A member's weight t is 1 for the bounded wave and, for an edge, 1 up to v = 3 and a cos² fade to 0 at v = 6 (v of that boundary); γ_ab = t_a t_b, the largest over the composites that hold both.
-/// So power + interference = |Σ t a|² + Σ (1 − t²)|a|² ≥ 0 for one composite, and it is continuous where the bounded wave appears or ends, since there its
-/// edge's wave jumps by as much. Direct and reflected wave of one grazed face share an edge's two composites: γ = t t'.
-/// Edges that end at one vertex, before and after the same other interactions, both diffraction points within r_F of it: γ = 1.
+/// An edge bounds up to three waves: the one that it cuts off (the sequence without the edge) and the ones that its two faces reflect (the sequence with the face in place of
+/// the edge). The bounded wave and the waves of all edges that bound it form one composite, whether the bounded wave arrives or not.
+/// An edge belongs to a composite with the weight t = 1 up to v = 3 and a cos² fade to 0 at v = 6 (v of that boundary). Edges that end at one corner,
+/// before and after the same other interactions, both diffraction points within r_F of it, are tied with weight 1.
+/// γ_ab is the product of the weights along the way from a to b over these ties (of several ways the strongest: the maximum spanning tree of the first band):
+/// 1 for a wave and an edge on its boundary, t_a t_b for two edges of one wave, t t' for a direct and a reflected wave that one edge bounds both (near
+/// grazing they are one coherent wave). Products along a tree are a correlation, so power + interference = the mean power of correlated waves ≥ 0; it is continuous where a
+/// bounded wave appears or ends, since there its edge's wave jumps by as much.
 /// Source: physics of an edge, lines 8 to 10.
-///
-/// Where the same pair meets in several composites with different partners the sum of γ might make the total negative;
-/// the interference is then limited to −Σ|a|² (the total is 0, a null of the field).
 class CompositeSum {
  public:
   CompositeSum(const Scene& scene, const Plan& plan) : scene_(&scene), plan_(&plan) {}
@@ -50,27 +49,30 @@ class CompositeSum {
   void interference(std::span<const Arrival> arrivals, Polarisation polarisation, std::span<double> out);
 
  private:
-  /// An edge's wave as a member of a composite.
-  struct Member {
-    SequenceHash composite;
-    std::uint32_t arrival;
-    std::uint32_t weights;  ///< first of its weights t, one per band
+  /// Two nodes that add as fields. Nodes are the arrivals, then the bounded waves that do not arrive.
+  struct Tie {
+    std::uint32_t a, b;
+    std::uint32_t weights;  ///< first of its weights, one per band
   };
-  /// Two arrivals that add as fields.
-  struct Pair {
-    std::uint32_t a, b;     ///< a < b
-    std::uint32_t weights;  ///< first of the weights γ, one per band
-  };
-  void gather_members(std::span<const Arrival> arrivals);
-  void pair_members(std::span<const Arrival> arrivals);
-  void pair_corners(std::span<const Arrival> arrivals);
-  void add_pair(std::uint32_t a, std::uint32_t b, const double* ta, const double* tb);
+  void tie_to_composites(std::span<const Arrival> arrivals);
+  void tie_corners(std::span<const Arrival> arrivals);
+  void span_tree();
+  std::uint32_t node_of(SequenceHash composite, std::span<const Arrival> arrivals);
+  std::uint32_t root_of(std::uint32_t node);
 
   const Scene* scene_;
   const Plan* plan_;
-  std::vector<Member> members_;
-  std::vector<Pair> pairs_;
+  std::vector<Tie> ties_;
   std::vector<double> weights_;
+  std::vector<SequenceHash> absent_;  ///< composites whose bounded wave does not arrive
+  std::size_t arrivals_ = 0;
+  std::vector<std::uint32_t> root_;   ///< union-find
+  struct Branch {
+    std::uint32_t node, parent, weights;
+  };
+  std::vector<Branch> branches_;      ///< of the spanning forest, parents first
+  std::vector<std::uint32_t> first_, next_, tie_of_;  ///< neighbours of the nodes along kept ties
+  std::vector<std::array<std::complex<double>, 2>> sums_;
 };
 
 }  // namespace grimaldi

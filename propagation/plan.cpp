@@ -146,7 +146,7 @@ Plan make_plan(const PlanDescription& description, const Scene& scene, const Tra
         description.kind == WaveKind::acoustic ? sound_attenuation(description.air, f) / (20 * std::log10(std::exp(1.0))) : 0);
   }
   plan.materials = face_materials(plan, scene, diagnostics);
-  if (description.coverage) {
+  if (description.coverage && std::isfinite(description.coverage->cell_size)) {
     const double sub_points = std::pow(sub_points_a_side(description.rays), 2) + std::pow(edge_sub_points_a_side(description.rays), 2);
     // Layers, gain, error, bias and delays per transmitter and band; the sub-points; the walk's bookkeeping.
     const std::size_t bytes = description.transmitters.size() * plan.bands() * (mechanism_count + 5) * sizeof(double) +

@@ -54,6 +54,9 @@ class Layer {
 
   void lay() {
     const std::vector<std::string> parts = parts_of(option_.key);
+    if (parts.size() > static_cast<std::size_t>(deepest_key))
+      return fault("not a key", fmt::format("a key of more than {} parts", deepest_key),
+                   "write e.g. --set coverage.cell_size=5");
     if (std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.empty(); }))
       return fault("not a key", "\"" + option_.key + "\" has an empty part", "write e.g. --set coverage.cell_size=5");
     if (!is_utf8(option_.key) || !is_utf8(option_.value))

@@ -149,6 +149,7 @@ void read_coverage_section(ScenarioReader& reader, const ScenarioNode& root, Pla
   if (section == nullptr) return;
   reader.check_keys(*section, {"height", "cell_size", "area", "polarisation"});
   CoverageRequest coverage;
+  const std::size_t faults_before = reader.error_count();
   reader.read(*section, "height", Dimension::length, positive, coverage.height);
   reader.read(*section, "cell_size", Dimension::length, positive, coverage.cell_size);
   if (const ScenarioNode* node = section->find("area")) {
@@ -164,6 +165,8 @@ void read_coverage_section(ScenarioReader& reader, const ScenarioNode& root, Pla
     }
   }
   read_polarisation(reader, *section, plan, true, coverage.polarisation);
+  // Of another grid than the one meant nothing can be said: NaN keeps it from being judged.
+  if (reader.error_count() > faults_before) coverage.cell_size = std::numeric_limits<double>::quiet_NaN();
   plan.coverage = coverage;
 }
 

@@ -11,9 +11,6 @@ namespace {
 
 using Kind = ScenarioNode::Kind;
 
-// A key of more parts than this is no scenario; the parser recurses once per part, so the stack must be kept from it.
-constexpr int deepest_key = 64;
-
 // The line of the first key of more than `deepest_key` parts, 0 if there is none: dots are counted outside quotes and
 // comments, between the marks that end a key.
 int line_of_too_deep_key(std::string_view text) {

@@ -107,7 +107,7 @@ TEST_F(BadInput, TruncatedPly) {
   // Cut in the last row, between the rows, in the header.
   for (const std::size_t length : {whole.size() - 4, whole.size() - 8, whole.size() - 20, std::size_t{60}, std::size_t{3}}) {
     write("cut.ply", whole.substr(0, length));
-    refused(of_scene("cut.ply"), {"cut.ply: "});
+    refused(of_scene("cut.ply"), {"cut.ply:"});
   }
   // A binary one: a header for 1000 triangles, bytes for a few.
   write("binary.ply",
@@ -162,7 +162,8 @@ TEST_F(BadInput, DeeplyNestedScenario) {
   for (int i = 0; i < 100000; ++i) key += ".a";
   write("deep.toml", key + " = 1\n");
   refused({"coverage", "deep.toml"}, {"deep.toml:1", "not a scenario"});
-  refused(city({"--set", "scene." + key + "=1"}), {"--set", "a key of more than 64 parts"});
+  // As long as the system lets one argument be.
+  refused(city({"--set", "scene." + key.substr(0, 100000) + "=1"}), {"--set", "a key of more than 64 parts"});
 }
 
 TEST_F(BadInput, UnknownKey) {
@@ -248,7 +249,7 @@ TEST_F(BadInput, ExistingResultWithoutOverwrite) {
 
 TEST_F(BadInput, InterruptedRun) {
   // So many rays that only the signal can end it.
-  const Words words = city({"--rays", "1e11", "--progress", "-o", "out", "--overwrite"});
+  const Words words = city({"--rays", "1e10", "--progress", "-o", "out", "--overwrite"});
   for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
     SCOPED_TRACE(signal);
     const pid_t child = start(words);
