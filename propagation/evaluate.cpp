@@ -24,7 +24,8 @@ struct CellSums {
   std::array<double, mechanism_count> layers{};
   double delay = 0, delay2 = 0, power = 0;  ///< power-weighted moments of the delay about the first arrival
   double variance = 0;                      ///< from sub-points
-  double interference2 = 0;                 ///< Σ w interference²
+  double interference = 0, interference2 = 0;  ///< Σ w I, Σ w I² over the edges' points
+  double edge_points_power = 0;             ///< Σ w |h|² of all paths over the edges' points
   std::array<double, 32> lone{};            ///< gain that one pass alone found
 };
 
@@ -78,7 +79,9 @@ class CellEvaluator {
       if (points[i].edge_weight == 0) continue;
       composite_.interference({arrivals_.data(), count}, polarisation, interference_);
       for (std::size_t band = 0; band < plan_.bands(); ++band) {
-        sums_[band].layers[static_cast<std::size_t>(Mechanism::interference)] += points[i].edge_weight * interference_[band];
+        sums_[band].interference += points[i].edge_weight * interference_[band];
+        for (std::size_t a = 0; a < count; ++a)
+          sums_[band].edge_points_power += points[i].edge_weight * received_power(arrivals_[a].field[band], polarisation);
         sums_[band].interference2 += points[i].edge_weight * interference_[band] * interference_[band];
       }
     }
@@ -111,7 +114,11 @@ class CellEvaluator {
     for (const SubPoint& point : points) edge_points += point.edge_weight > 0;
     const std::size_t cells = grid_.layout.size(), bands = plan_.bands();
     for (std::size_t band = 0; band < bands; ++band) {
-      const CellSums& sums = sums_[band];
+      CellSums& sums = sums_[band];
+      // The interference is known over the edges' points: its ratio to the power there times the power over all points, so that the two sets never make a
+      // cell negative.
+      const double scale = sums.edge_points_power > 0 ? sums.power / sums.edge_points_power : 0;
+      sums.layers[static_cast<std::size_t>(Mechanism::interference)] = scale * sums.interference;
       const std::size_t at = (transmitter_ * bands + band) * cells + cell;
       double gain = 0;
       for (std::size_t m = 0; m < mechanism_count; ++m) {
@@ -125,8 +132,8 @@ class CellEvaluator {
         const double off = sums.lone[static_cast<std::size_t>(i)] - lone / passes;
         squares += off * off;
       }
-      const double fringe = sums.layers[static_cast<std::size_t>(Mechanism::interference)];
-      const double fringe_variance = edge_points > 0 ? std::max(0.0, sums.interference2 - fringe * fringe) / edge_points : 0;
+      const double fringe_variance =
+          edge_points > 0 ? scale * scale * std::max(0.0, sums.interference2 - sums.interference * sums.interference) / edge_points : 0;
       map_.path_gain[at] = gain;
       map_.standard_error[at] = std::sqrt((passes - 1) / passes * squares + sums.variance + fringe_variance);
       map_.bias[at] = (passes - 1) / passes * lone;

@@ -16,7 +16,7 @@ namespace grimaldi {
 CoverageMap empty_map(const Plan& plan, const CoverageGrid& grid);
 
 /// Fills transmitter `transmitter` of `map`.
-/// path_gain = Σ w_i [Σ_paths |h|² + interference] over the cell's sub-points i; layers by `mechanism_of`; delays weighted by the power of the paths.
+/// path_gain = Σ w_i Σ_paths |h|² over the cell's sub-points i, times 1 + interference/power over the points of edges; layers by `mechanism_of`; delays weighted by the power of the paths.
 /// standard_error² = jackknife over passes + sub-points. Jackknife (delete one pass of B): with u_i the gain that pass i alone found, (B−1)/B Σ(u_i − ū)².
 /// Sub-points: a path that m of n sub-points see, power P there, adds P² p(1−p)/n with p = (m+½)/(n+1) where 0 < m < n; the interference adds its variance over the sub-points/n.
 /// bias = (B−1)/B Σ u_i: the jackknife's estimate of what no pass has found yet.

@@ -44,16 +44,17 @@ std::complex<double> published_edge_wave(double wavenumber, const PublishedEdge&
   const double middle = 0.5 * ((edge.start[0] + edge.end[0]) * xi[0] + (edge.start[1] + edge.end[1]) * xi[1]);
   const double square = zeta_x * zeta_x + zeta_y * zeta_y;
   const double without_lobe = std::sqrt(-std::expm1(-square / 6));
-  const std::complex<double> shape{(edge.start_amplitude - edge.end_amplitude) * alpha1(zeta_x, zeta_y),
-                                   0.5 * (edge.start_amplitude + edge.end_amplitude) * alpha2(zeta_x, zeta_y)};
+  const std::complex<double> a = edge.start_amplitude, b = edge.end_amplitude, i{0, 1};
+  const std::complex<double> shape = (a - b) * alpha1(zeta_x, zeta_y) + 0.5 * i * (a + b) * alpha2(zeta_x, zeta_y);
   return without_lobe * wavenumber * (ex * ex + ey * ey) * std::polar(1.0, -std::remainder(wavenumber * middle, 2 * pi)) * shape;
 }
 
 double published_edge_power(const PublishedEdge& edge) {
   constexpr double integral1 = 0.004612658839610051, integral2 = 0.12458996032251083;
   const double ex = edge.end[0] - edge.start[0], ey = edge.end[1] - edge.start[1];
-  const double difference = edge.start_amplitude - edge.end_amplitude, mean = 0.5 * (edge.start_amplitude + edge.end_amplitude);
-  return (ex * ex + ey * ey) * (difference * difference * integral1 + mean * mean * integral2);
+  const std::complex<double> difference = edge.start_amplitude - edge.end_amplitude;
+  const std::complex<double> mean = 0.5 * (edge.start_amplitude + edge.end_amplitude);
+  return (ex * ex + ey * ey) * (std::norm(difference) * integral1 + std::norm(mean) * integral2);
 }
 
 std::vector<PublishedEdge> straight_silhouette(const PublishedFootprint& footprint, double distance) {

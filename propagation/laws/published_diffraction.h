@@ -8,7 +8,6 @@
 
 #include <array>
 #include <complex>
-#include <span>
 #include <vector>
 
 namespace grimaldi {
@@ -25,7 +24,7 @@ double alpha2(double zeta_x, double zeta_y);
 /// A straight piece of silhouette in the plane across the ray, the aperture on its left; amplitudes of the footprint at its ends, 1/m for unit power.
 struct PublishedEdge {
   PlanePoint start, end;
-  double start_amplitude, end_amplitude;
+  std::complex<double> start_amplitude, end_amplitude;
 };
 
 /// R ψ̂_j(ξ), the wave of one edge without its central lobe: √(1 − χ) k e² exp(−ikξ·v)[(a − b) α1(ζ) + i (a + b)/2 α2(ζ)], S2.19 and S2.26, χ = exp(−ζ²/6).
@@ -38,10 +37,11 @@ std::complex<double> published_edge_wave(double wavenumber, const PublishedEdge&
 double published_edge_power(const PublishedEdge& edge);
 
 /// Footprint of a ray: |φ|² a Gaussian of standard deviation sigma (m) and power 1; the silhouette inside 3√2 sigma of its centre is cut into
-/// `pieces` of equal length, since the amplitude is linear along each. What the lobes take away, and so the power that is left, depends on them.
+/// `pieces` of equal length, since the amplitude is linear along each: 12 are half the amplitude's standard deviation (√2 sigma) long each, well inside the
+/// one that the authors allow. What the lobes take away, and so the power that is left, depends on them: some 3 dB for twice the number.
 struct PublishedFootprint {
   double sigma = 0;
-  int pieces = 6;
+  int pieces = 12;
 };
 
 /// Standard deviation of the footprint over the wavelength, as published.
