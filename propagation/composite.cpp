@@ -73,9 +73,11 @@ void CompositeSum::tie_to_composites(std::span<const Arrival> arrivals) {
       for (std::size_t kind = 0; kind < kinds; ++kind) {
         const double v = boundary_parameter(*scene_, arrival.geometry, e, bounded[kind].first, longest);
         if (v >= no_coherence) continue;
-        const std::uint32_t node = node_of(without_edge(arrival.interactions, position, bounded[kind].second), arrivals);
+        const std::uint32_t node =
+            node_of(without_edge(arrival.interactions, position, bounded[kind].second), arrivals);
         ties_.push_back({node, a, static_cast<std::uint32_t>(weights_.size())});
-        for (const double k : plan_->wavenumber) weights_.push_back(coherence(v * std::sqrt(k / plan_->wavenumber.front())));
+        for (const double k : plan_->wavenumber)
+          weights_.push_back(coherence(v * std::sqrt(k / plan_->wavenumber.front())));
       }
     }
   }
@@ -96,7 +98,8 @@ void CompositeSum::tie_corners(std::span<const Arrival> arrivals) {
       const Wedge& wedge = scene_->wedges.wedges[passage.wedge];
       const double zone = std::sqrt(longest * passage.s_in * passage.s_out / (passage.s_in + passage.s_out));
       const SequenceHash rest = without_edge(arrivals[a].interactions, position, edge_interaction(0x7fffffffu));
-      if (wedge.vertex_start != no_index && std::abs(passage.along) < zone) ends.push_back({rest, wedge.vertex_start, a});
+      if (wedge.vertex_start != no_index && std::abs(passage.along) < zone)
+        ends.push_back({rest, wedge.vertex_start, a});
       if (wedge.vertex_end != no_index && std::abs(wedge.length - passage.along) < zone)
         ends.push_back({rest, wedge.vertex_end, a});
     }

@@ -32,15 +32,16 @@ double received_power(const std::array<std::complex<double>, 2>& field, Polarisa
 
 /// The cross terms of all arrivals at one point, per band: 2 Σ γ_ab Re(a b*).
 ///
-/// An edge bounds up to three waves: the one that it cuts off (the sequence without the edge) and the ones that its two faces reflect (the sequence with the face in place of
-/// the edge). The bounded wave and the waves of all edges that bound it form one composite, whether the bounded wave arrives or not.
-/// An edge belongs to a composite with the weight t = 1 up to v = 3 and a cos² fade to 0 at v = 6 (v of that boundary). Edges that end at one corner,
-/// before and after the same other interactions, both diffraction points within r_F of it, are tied with weight 1.
-/// γ_ab is the product of the weights along the way from a to b over these ties (of several ways the strongest: the maximum spanning tree of the first band):
-/// 1 for a wave and an edge on its boundary, t_a t_b for two edges of one wave, t t' for a direct and a reflected wave that one edge bounds both (near
-/// grazing they are one coherent wave). Products along a tree are a correlation, so power + interference = the mean power of correlated waves ≥ 0; it is continuous where a
-/// bounded wave appears or ends, since there its edge's wave jumps by as much.
-/// Source: physics of an edge, lines 8 to 10.
+/// An edge bounds up to three waves: the one that it cuts off (the sequence without the edge) and the ones that its two
+/// faces reflect (the sequence with the face in place of the edge). The bounded wave and the waves of all edges that
+/// bound it form one composite, whether the bounded wave arrives or not. An edge belongs to a composite with the weight
+/// t = 1 up to v = 3 and a cos² fade to 0 at v = 6 (v of that boundary). Edges that end at one corner, before and after
+/// the same other interactions, both diffraction points within r_F of it, are tied with weight 1. γ_ab is the product
+/// of the weights along the way from a to b over these ties (of several ways the strongest: the maximum spanning tree
+/// of the first band): 1 for a wave and an edge on its boundary, t_a t_b for two edges of one wave, t t' for a direct
+/// and a reflected wave that one edge bounds both (near grazing they are one coherent wave). Products along a tree are
+/// a correlation, so power + interference = the mean power of correlated waves ≥ 0; it is continuous where a bounded
+/// wave appears or ends, since there its edge's wave jumps by as much. Source: physics of an edge, lines 8 to 10.
 class CompositeSum {
  public:
   CompositeSum(const Scene& scene, const Plan& plan) : scene_(&scene), plan_(&plan) {}
@@ -66,11 +67,11 @@ class CompositeSum {
   std::vector<double> weights_;
   std::vector<SequenceHash> absent_;  ///< composites whose bounded wave does not arrive
   std::size_t arrivals_ = 0;
-  std::vector<std::uint32_t> root_;   ///< union-find
+  std::vector<std::uint32_t> root_;  ///< union-find
   struct Branch {
     std::uint32_t node, parent, weights;
   };
-  std::vector<Branch> branches_;      ///< of the spanning forest, parents first
+  std::vector<Branch> branches_;                      ///< of the spanning forest, parents first
   std::vector<std::uint32_t> first_, next_, tie_of_;  ///< neighbours of the nodes along kept ties
   std::vector<std::array<std::complex<double>, 2>> sums_;
 };

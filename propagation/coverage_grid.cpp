@@ -81,7 +81,8 @@ struct PointCounts {
   int fine, edge;
 };
 
-CellPoints crossed_cell(const Tracer& tracer, const GridLayout& grid, std::size_t cell, PointCounts counts, std::uint64_t seed) {
+CellPoints crossed_cell(const Tracer& tracer, const GridLayout& grid, std::size_t cell, PointCounts counts,
+                        std::uint64_t seed) {
   const Vec3 corner = grid.centre(cell) - Vec3{0.5 * grid.cell, 0.5 * grid.cell, 0};
   std::array<bool, raster * raster> outdoor{};
   int outdoors = 0;

@@ -23,7 +23,8 @@ constexpr std::uint64_t rays_per_aimed = 8;
 /// Paths weaker than the wave at 1 m by this factor (140 dB) are not sought.
 constexpr double gain_floor = 1e-14;
 constexpr std::uint32_t edge_stream = 2, aim_stream = 4;
-/// Footprint of a beam over the spacing of the beams of its pass: more than ½ √2, so that every place is in some footprint.
+/// Footprint of a beam over the spacing of the beams of its pass: more than ½ √2, so that every place is in some
+/// footprint.
 constexpr double footprint_share = 0.75;
 /// Near an edge the footprint is never finer than this (rad): more beams then meet each edge more often.
 constexpr double coarse_spacing = 0.014;
@@ -50,7 +51,7 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 /// What one block of beams found; distinct within the block.
 struct BlockRecords {
   SequenceTable sequences;
-  std::vector<Seed> seeds;           ///< sequences numbered within the block
+  std::vector<Seed> seeds;  ///< sequences numbered within the block
   FluxLedger flux;
   std::uint64_t segments = 0;
 };
@@ -127,11 +128,16 @@ struct PatchRims {
 /// One thread's walker: takes beams from birth to death and leaves records in a block.
 class Walker {
  public:
-  Walker(const Scene& scene, const Tracer& tracer, const Plan& plan, const Search& search, const ReflectanceTable& reflectance,
-         const PatchRims& rims)
-      : scene_(scene), tracer_(tracer), plan_(plan), search_(search),
+  Walker(const Scene& scene, const Tracer& tracer, const Plan& plan, const Search& search,
+         const ReflectanceTable& reflectance, const PatchRims& rims)
+      : scene_(scene),
+        tracer_(tracer),
+        plan_(plan),
+        search_(search),
         most_edges_(std::min({plan.request.max_diffractions, search.most_edges, static_cast<int>(max_edges)})),
-        reflectance_(reflectance), rims_(rims), keep_all_(!plan.request.receivers.empty()),
+        reflectance_(reflectance),
+        rims_(rims),
+        keep_all_(!plan.request.receivers.empty()),
         far_(2 * distance(scene.low, scene.high) + double(plan.grid.nx + plan.grid.ny) * plan.grid.cell),
         unit_gain_(plan.request.kind == WaveKind::radio ? std::pow(plan.speed / plan.frequency.front() / (4 * pi), 2)
                                                         : 1 / (4 * pi)) {}
@@ -277,7 +283,8 @@ class Walker {
     for (auto i = wedges.triangle_wedge_begin[hit.triangle]; i < wedges.triangle_wedge_begin[hit.triangle + 1]; ++i) {
       const std::uint32_t wedge_index = wedges.triangle_wedge[i];
       const Wedge& wedge = wedges.wedges[wedge_index];
-      // The face that the beam comes from cannot send it to its own rim but along itself: that wave is a term of the edge.
+      // The face that the beam comes from cannot send it to its own rim but along itself: that wave is a term of the
+      // edge.
       if (beam.leave0 == wedge.patch0 || beam.leave0 == wedge.patchn) continue;
       if (beam.depth > 0 && beam.interactions[beam.depth - 1] == edge_interaction(wedge_index)) continue;
       const double along = std::clamp(dot(point - wedge.start, wedge.direction), 0.0, wedge.length);
@@ -300,8 +307,8 @@ class Walker {
     if (beam.depth > 0 && (beam.leave0 == wedge.patch0 || beam.leave0 == wedge.patchn)) return;
     const double along = share * wedge.length;
     const double half = 0.5 * wedge.exterior_angle;
-    const Vec3 seen =
-        wedge.point(along) + 3 * tracer_.surface_gap() * (std::cos(half) * wedge.along0 + std::sin(half) * wedge.normal0);
+    const Vec3 seen = wedge.point(along) +
+                      3 * tracer_.surface_gap() * (std::cos(half) * wedge.along0 + std::sin(half) * wedge.normal0);
     ++records_->segments;
     if (!tracer_.visible(beam.origin, seen)) return;
     leave_edge(beam, wedge_index, along, distance(beam.origin, seen));
@@ -327,7 +334,8 @@ class Walker {
     Beam child;
     child.radius = incident_length;
     const double half = 0.5 * wedge.exterior_angle;
-    child.origin = edge_point + 3 * tracer_.surface_gap() * (std::cos(half) * wedge.along0 + std::sin(half) * wedge.normal0);
+    child.origin =
+        edge_point + 3 * tracer_.surface_gap() * (std::cos(half) * wedge.along0 + std::sin(half) * wedge.normal0);
     child.leave0 = wedge.patch0;
     child.leave1 = wedge.patchn;
     child.length = beam.length + hit_distance;
@@ -350,10 +358,12 @@ class Walker {
   }
 
   /// Bound on L|ΣU|², m: each of an edge's terms by its asymptote or ½, L by the length of the incident leg.
-  double diffracted_strength(const Wedge& wedge, double phi_in, double phi, double sin_beta, double incident_length) const {
+  double diffracted_strength(const Wedge& wedge, double phi_in, double phi, double sin_beta,
+                             double incident_length) const {
     const double wavelength = plan_.speed / plan_.frequency.front();
     double sum = 0;
-    for (const double epsilon : {std::abs(phi - phi_in) - pi, phi + phi_in - pi, 2 * wedge.exterior_angle - phi - phi_in - pi}) {
+    for (const double epsilon :
+         {std::abs(phi - phi_in) - pi, phi + phi_in - pi, 2 * wedge.exterior_angle - phi - phi_in - pi}) {
       const double v = fresnel_parameter(incident_length, wavelength, sin_beta, epsilon);
       sum += v < 0.45 ? 0.5 : 1 / (std::sqrt(2.0) * pi * v);
       if (!plan_.request.reflection) break;
@@ -386,7 +396,7 @@ class Walker {
   const ReflectanceTable& reflectance_;
   const PatchRims& rims_;
   const bool keep_all_;
-  const double far_;  ///< beyond everything, m
+  const double far_;        ///< beyond everything, m
   const double unit_gain_;  ///< path gain at 1 m
   double spacing_ = 0;
   BlockRecords* records_ = nullptr;
@@ -405,7 +415,8 @@ void merge(const BlockRecords& block, std::uint32_t pass_bit, Discovered& all) {
     if (number[i] >= all.found.size()) all.found.resize(number[i] + 1, 0);
     all.found[number[i]] |= pass_bit;
   }
-  for (const Seed& seed : block.seeds) all.seeds.push_back({number[seed.sequence], seed.cell, pass_bit, seed.crossed, seed.gain});
+  for (const Seed& seed : block.seeds)
+    all.seeds.push_back({number[seed.sequence], seed.cell, pass_bit, seed.crossed, seed.gain});
   all.segments += block.segments;
   all.flux.launched += block.flux.launched;
   all.flux.absorbed += block.flux.absorbed;
@@ -440,7 +451,8 @@ void Discovered::append(const Discovered& later) {
     number[i] = sequences.enter(later.sequences.hash(i), later.sequences[i]);
     if (number[i] >= offset) found.push_back(later.found[i]);
   }
-  for (const Seed& seed : later.seeds) seeds.push_back({number[seed.sequence], seed.cell, seed.passes, seed.crossed, seed.gain});
+  for (const Seed& seed : later.seeds)
+    seeds.push_back({number[seed.sequence], seed.cell, seed.passes, seed.crossed, seed.gain});
   segments += later.segments;
   merge_seconds += later.merge_seconds;
 }
@@ -468,7 +480,8 @@ Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, 
     const std::uint64_t blocks = (count + block_size - 1) / block_size;
     // One beam a pass to each wedge, or to as many as there are rays in the pass.
     const std::uint64_t wedges = request.diffraction && request.max_diffractions > 0 ? scene.wedges.wedges.size() : 0;
-    const std::uint64_t aimed = std::min(wedges, count / rays_per_aimed + 1), aimed_blocks = (aimed + aimed_block_size - 1) / aimed_block_size;
+    const std::uint64_t aimed = std::min(wedges, count / rays_per_aimed + 1),
+                        aimed_blocks = (aimed + aimed_block_size - 1) / aimed_block_size;
     std::vector<BlockRecords> records(blocks + aimed_blocks);
     for_each_block(
         blocks + aimed_blocks, threads,
@@ -479,8 +492,10 @@ Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, 
             const std::uint64_t first = (block - blocks) * aimed_block_size;
             for (std::uint64_t i = first; i < std::min(aimed, first + aimed_block_size); ++i) {
               const std::uint64_t wedge = aimed == wedges ? i : (pass * aimed + i) % wedges;
-              const double along = (double(pass) + uniform4(request.seed, aim_stream, wedge, std::uint32_t(pass))[0]) / double(passes);
-              walker.walk_to_edge(request.transmitters[transmitter].position, std::uint32_t(wedge), along, ~(pass << 40 | wedge));
+              const double along =
+                  (double(pass) + uniform4(request.seed, aim_stream, wedge, std::uint32_t(pass))[0]) / double(passes);
+              walker.walk_to_edge(request.transmitters[transmitter].position, std::uint32_t(wedge), along,
+                                  ~(pass << 40 | wedge));
             }
             return;
           }

@@ -28,29 +28,34 @@ struct Discovered {
   std::uint64_t rays = 0, segments = 0;
   double merge_seconds = 0;  ///< of one thread, uniting the blocks' records
 
-  /// Adds what a later search of the same transmitter found: its sequences get the numbers after the ones there are. The ledger and the
-  /// rays stay those of the first (the beams are the same).
+  /// Adds what a later search of the same transmitter found: its sequences get the numbers after the ones there are.
+  /// The ledger and the rays stay those of the first (the beams are the same).
   void append(const Discovered& later);
 };
 
-/// Which part of the paths to look for. Paths of two and more edges are many and mostly negligible: they are looked for when the
-/// power that simpler ones bring to each cell is known.
+/// Which part of the paths to look for. Paths of two and more edges are many and mostly negligible: they are looked for
+/// when the power that simpler ones bring to each cell is known.
 struct Search {
   int fewest_edges = 0, most_edges = 1000;
-  /// Per cell the power below which a path is negligible there; empty: none is. A beam whose estimate stays 10 dB below does not name the cell.
+  /// Per cell the power below which a path is negligible there; empty: none is. A beam whose estimate stays 10 dB below
+  /// does not name the cell.
   std::vector<double> negligible;
 };
 
-/// Launches the plan's rays from transmitter `transmitter` in plan.request.passes passes. A beam reflects at every face up to the depth; where it hits within
-/// its footprint (¾ of the spacing of the pass's beams at its length) of an edge, one more beam leaves the edge's nearest point on the
-/// Keller cone, its azimuth drawn half uniformly over the exterior and half close to the shadow and reflection boundaries, and
-/// goes on in the same way. A segment of a beam names the cell that it crosses and one cell, drawn at random, over or under which it passes: a wave that leaves a
-/// wall or an upright edge at one height leaves it at others too. Only which sequences are found depends on these choices, never how strong they are.
-/// Paths 140 dB weaker than the wave at 1 m, by a bound on the way, are not sought.
-/// Each pass also aims beams at the wedges themselves (one for 8 launched, at most one a wedge), so that those that the transmitter sees are met at all their length; after a
-/// reflection or diffraction a beam that hits a patch is aimed at one wedge of that patch or of its neighbours.
-/// Every sequence met is entered if the plan has receivers, else those that lit a cell.
-/// `progress` is told the share done. Ends early when `stop` is set.
+/// Launches the plan's rays from transmitter `transmitter` in plan.request.passes passes.
+/// * A beam reflects at every face up to the depth. Each pass also aims beams at points of the wedges (one for 8
+///   launched, at most one a wedge): those that the transmitter sees are met at all their length.
+/// * From an edge met leaves a fan (16 beams for a first edge, else 8) on the Keller cone, azimuths drawn half
+/// uniformly
+///   over the exterior and half close to the shadow and reflection boundaries; they go on in the same way. After a
+///   reflection or an edge a beam meets the edges of the triangle that it hits within its footprint (¾ of the spacing
+///   of the beams at its length, at least 14 mrad), and is aimed at one wedge of that patch or of its neighbours.
+/// * A segment of a beam names the cell that it crosses and one cell, drawn at random, over or under which it passes: a
+///   wave that leaves a wall or an upright edge at one height leaves it at others too.
+/// * Paths 140 dB weaker than the wave at 1 m, by a bound on the way, are not sought.
+/// Only which sequences are found depends on these choices, never how strong they are. Every sequence met is entered if
+/// the plan has receivers, else those that named a cell. `progress` is told the share done. Ends early when `stop` is
+/// set.
 Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
                     const Search& search, const std::function<void(double)>& progress, const std::atomic<bool>* stop);
 

@@ -22,19 +22,26 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 /// Sums of one cell and band.
 struct CellSums {
   std::array<double, mechanism_count> layers{};
-  double delay = 0, delay2 = 0, power = 0;  ///< power-weighted moments of the delay about the first arrival
-  double variance = 0;                      ///< from sub-points
+  double delay = 0, delay2 = 0, power = 0;     ///< power-weighted moments of the delay about the first arrival
+  double variance = 0;                         ///< from sub-points
   double interference = 0, interference2 = 0;  ///< Σ w I, Σ w I² over the edges' points
-  double edge_points_power = 0;             ///< Σ w |h|² of all paths over the edges' points
-  std::array<double, 32> lone{};            ///< gain that one pass alone found
+  double edge_points_power = 0;                ///< Σ w |h|² of all paths over the edges' points
+  std::array<double, 32> lone{};               ///< gain that one pass alone found
 };
 
 class CellEvaluator {
  public:
   CellEvaluator(const Scene& scene, const Plan& plan, std::size_t transmitter, const CoverageGrid& grid,
                 const Discovered& discovered, CoverageMap& map)
-      : scene_(scene), plan_(plan), transmitter_(transmitter), grid_(grid), discovered_(discovered), map_(map),
-        wavelength_(2 * pi / plan.wavenumber.front()), composite_(scene, plan), sums_(plan.bands()),
+      : scene_(scene),
+        plan_(plan),
+        transmitter_(transmitter),
+        grid_(grid),
+        discovered_(discovered),
+        map_(map),
+        wavelength_(2 * pi / plan.wavenumber.front()),
+        composite_(scene, plan),
+        sums_(plan.bands()),
         interference_(plan.bands()) {}
 
   void evaluate(std::size_t cell, std::span<const Pair> pairs) {
@@ -47,7 +54,8 @@ class CellEvaluator {
     const double reference_delay = distance(transmitter.position, grid_.layout.centre(cell)) / plan_.speed;
     std::vector<UnfoldedSequence>& unfolded = unfolded_;
     unfolded.clear();
-    for (const Pair& pair : pairs) unfolded.emplace_back(scene_, transmitter.position, discovered_.sequences[pair.sequence]);
+    for (const Pair& pair : pairs)
+      unfolded.emplace_back(scene_, transmitter.position, discovered_.sequences[pair.sequence]);
     partial_.assign(pairs.size() * plan_.bands(), 0);
     for (std::size_t i = 0; i < points.size(); ++i) {
       std::size_t count = 0;
@@ -81,7 +89,8 @@ class CellEvaluator {
       for (std::size_t band = 0; band < plan_.bands(); ++band) {
         sums_[band].interference += points[i].edge_weight * interference_[band];
         for (std::size_t a = 0; a < count; ++a)
-          sums_[band].edge_points_power += points[i].edge_weight * received_power(arrivals_[a].field[band], polarisation);
+          sums_[band].edge_points_power +=
+              points[i].edge_weight * received_power(arrivals_[a].field[band], polarisation);
         sums_[band].interference2 += points[i].edge_weight * interference_[band] * interference_[band];
       }
     }
@@ -115,8 +124,8 @@ class CellEvaluator {
     const std::size_t cells = grid_.layout.size(), bands = plan_.bands();
     for (std::size_t band = 0; band < bands; ++band) {
       CellSums& sums = sums_[band];
-      // The interference is known over the edges' points: its ratio to the power there times the power over all points, so that the two sets never make a
-      // cell negative.
+      // The interference is known over the edges' points: its ratio to the power there times the power over all points,
+      // so that the two sets never make a cell negative.
       const double scale = sums.edge_points_power > 0 ? sums.power / sums.edge_points_power : 0;
       sums.layers[static_cast<std::size_t>(Mechanism::interference)] = scale * sums.interference;
       const std::size_t at = (transmitter_ * bands + band) * cells + cell;
@@ -133,7 +142,9 @@ class CellEvaluator {
         squares += off * off;
       }
       const double fringe_variance =
-          edge_points > 0 ? scale * scale * std::max(0.0, sums.interference2 - sums.interference * sums.interference) / edge_points : 0;
+          edge_points > 0
+              ? scale * scale * std::max(0.0, sums.interference2 - sums.interference * sums.interference) / edge_points
+              : 0;
       map_.path_gain[at] = gain;
       map_.standard_error[at] = std::sqrt((passes - 1) / passes * squares + sums.variance + fringe_variance);
       map_.bias[at] = (passes - 1) / passes * lone;

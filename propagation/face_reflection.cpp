@@ -2,7 +2,8 @@
 
 namespace grimaldi {
 
-ReflectionCoefficients face_reflection(const Plan& plan, std::uint32_t material, std::size_t band, double cos_incidence) {
+ReflectionCoefficients face_reflection(const Plan& plan, std::uint32_t material, std::size_t band,
+                                       double cos_incidence) {
   const FaceMaterial& face = plan.materials[material];
   if (plan.request.kind == WaveKind::radio)
     return slab_reflection(face.permittivity[band], face.thickness, plan.wavenumber[band], cos_incidence);

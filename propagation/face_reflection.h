@@ -9,10 +9,11 @@
 namespace grimaldi {
 
 /// Coefficients of a face's material at band `band`: slab for radio, √(1 − α) twice for sound. cos_incidence 0 … 1.
-ReflectionCoefficients face_reflection(const Plan& plan, std::uint32_t material, std::size_t band, double cos_incidence);
+ReflectionCoefficients face_reflection(const Plan& plan, std::uint32_t material, std::size_t band,
+                                       double cos_incidence);
 
-/// Share of the power that a face reflects at the first band, mean of both polarisations, read off a table over the cosine (256 steps, linear).
-/// For the flux ledger only; |error| below 1 % of the power.
+/// Share of the power that a face reflects at the first band, mean of both polarisations, read off a table over the
+/// cosine (256 steps, linear). For the flux ledger only; |error| below 1 % of the power.
 class ReflectanceTable {
  public:
   explicit ReflectanceTable(const Plan& plan);

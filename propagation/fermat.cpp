@@ -12,7 +12,8 @@ namespace {
 constexpr double shortest_leg = 1e-6;
 /// Sine of the angle to an edge below which a ray runs along it.
 constexpr double along_edge = 1e-6;
-/// Newton's last step, m: convergence is quadratic, so what it leaves is far below a nanometre, and the length errs by its square.
+/// Newton's last step, m: convergence is quadratic, so what it leaves is far below a nanometre, and the length errs by
+/// its square.
 constexpr double last_step = 1e-5;
 /// Beyond an end of an edge its wave is kept while v_V is below this (physics: line 6 of the edge's law).
 constexpr double end_parameter_limit = 3;
@@ -50,7 +51,8 @@ UnfoldedSequence::UnfoldedSequence(const Scene& scene, const Vec3& source, std::
     }
     const Wedge& wedge = scene.wedges.wedges[index_of(here)];
     for (const std::size_t j : {i - 1, i + 1})
-      if (j < interactions.size() && (interactions[j] == wedge.patch0 || interactions[j] == wedge.patchn)) possible_ = false;
+      if (j < interactions.size() && (interactions[j] == wedge.patch0 || interactions[j] == wedge.patchn))
+        possible_ = false;
     edges_[edge_count_++] = {index_of(here), i, wedge.start, wedge.direction, wedge.along0, wedge.normal0};
   }
 }
@@ -142,7 +144,8 @@ bool UnfoldedSequence::fermat_points(const Vec3& receiver, std::array<double, ma
   return false;
 }
 
-bool UnfoldedSequence::passage(std::size_t i, const Vec3& before, double along, const Vec3& after, EdgePassage& out) const {
+bool UnfoldedSequence::passage(std::size_t i, const Vec3& before, double along, const Vec3& after,
+                               EdgePassage& out) const {
   const UnfoldedEdge& edge = edges_[i];
   const Wedge& wedge = scene_->wedges.wedges[edge.wedge];
   const Vec3 q = edge.point(along);
@@ -172,11 +175,12 @@ bool UnfoldedSequence::passage(std::size_t i, const Vec3& before, double along, 
 }
 
 bool UnfoldedSequence::mirror_points(std::size_t first, std::size_t last, PathGeometry& geometry) const {
-  // Interactions first … last−1 are faces between the vertices points[first] and points[last + 1] (points[i + 1] belongs to
-  // interaction i): images of the first vertex, then back from the last one.
+  // Interactions first … last−1 are faces between the vertices points[first] and points[last + 1] (points[i + 1]
+  // belongs to interaction i): images of the first vertex, then back from the last one.
   std::array<Vec3, max_depth + 1> images;
   Vec3 image = geometry.points[first];
-  for (std::size_t i = first; i < last; ++i) images[i] = image = mirrored(image, scene_->patches.patches[interactions_[i]]);
+  for (std::size_t i = first; i < last; ++i)
+    images[i] = image = mirrored(image, scene_->patches.patches[interactions_[i]]);
   Vec3 to = geometry.points[last + 1];
   for (std::size_t i = last; i-- > first;) {
     const Patch& patch = scene_->patches.patches[interactions_[i]];

@@ -1,5 +1,6 @@
 #pragma once
-// The points of a sequence between two ends: images for faces, the minimum of the path length (which is convex) for edges.
+// The points of a sequence between two ends: images for faces, the minimum of the path length (which is convex) for
+// edges.
 
 #include <array>
 #include <cstdint>
@@ -17,12 +18,13 @@ inline constexpr std::size_t max_edges = 8;
 /// How a path passes one edge, in lengths and angles that mirrors do not change.
 struct EdgePassage {
   std::uint32_t wedge = no_index;
-  double along = 0;           ///< of the diffraction point from the wedge's start, m; may lie beyond its ends
-  double s_in = 0, s_out = 0; ///< distances to the source or edge before and to the edge or receiver after, m
-  double sin_beta = 1;        ///< of the angle between ray and edge
-  double phi_in = 0, phi_out = 0;        ///< φ', φ: azimuths of where the wave comes from and goes to, rad, 0 … exterior angle
-  double detour_start = 0, detour_end = 0; ///< of the paths over the ends of the edge, m
-  bool inside = true;         ///< the diffraction point lies on the edge
+  double along = 0;            ///< of the diffraction point from the wedge's start, m; may lie beyond its ends
+  double s_in = 0, s_out = 0;  ///< distances to the source or edge before and to the edge or receiver after, m
+  double sin_beta = 1;         ///< of the angle between ray and edge
+  double phi_in = 0,
+         phi_out = 0;  ///< φ', φ: azimuths of where the wave comes from and goes to, rad, 0 … exterior angle
+  double detour_start = 0, detour_end = 0;  ///< of the paths over the ends of the edge, m
+  bool inside = true;                       ///< the diffraction point lies on the edge
 };
 
 /// A path found: points[0] = source, points[count−1] = receiver, between them one point per interaction.
@@ -34,20 +36,22 @@ struct PathGeometry {
   std::size_t edge_count = 0;
 };
 
-/// One sequence from one source, unfolded: what comes before a face is mirrored in it, so that the path to any receiver is
-/// a straight line, or one that breaks at edges only.
+/// One sequence from one source, unfolded: what comes before a face is mirrored in it, so that the path to any receiver
+/// is a straight line, or one that breaks at edges only.
 class UnfoldedSequence {
  public:
   UnfoldedSequence(const Scene& scene, const Vec3& source, std::span<const Interaction> interactions);
 
-  /// False for a sequence that no path can have: an edge next to a face of its own, one interaction twice in a row, too many edges.
+  /// False for a sequence that no path can have: an edge next to a face of its own, one interaction twice in a row, too
+  /// many edges.
   bool possible() const { return possible_; }
 
-  /// Points, lengths and angles of the path to `receiver`. False if there is none: a mirror's point lies behind it or outside its bounding
-  /// box, an azimuth inside the solid, a diffraction point so far beyond the edge's end that v_V ≥ 3 there at `wavelength` (m), or two
-  /// vertices of the path nearer than 1 µm. Visibility is not asked here.
-  /// Method: one edge in closed form (the two half-planes through the edge unfolded); more by Newton on the length, which is convex, until the step is below 1e-12 of the length.
-  /// Newton starts from the last solution of this object, so that neighbouring receivers cost one or two steps; the solution itself is the same to 1e-9 m.
+  /// Points, lengths and angles of the path to `receiver`. False if there is none: a mirror's point lies behind it or
+  /// outside its bounding box, an azimuth inside the solid, a diffraction point so far beyond the edge's end that v_V ≥
+  /// 3 there at `wavelength` (m), or two vertices of the path nearer than 1 µm. Visibility is not asked here. Method:
+  /// one edge in closed form (the two half-planes through the edge unfolded); more by Newton on the length, which is
+  /// convex, until the step is below 1e-12 of the length. Newton starts from the last solution of this object, so that
+  /// neighbouring receivers cost one or two steps; the solution itself is the same to 1e-9 m.
   bool solve(const Vec3& receiver, double wavelength, PathGeometry& geometry);
 
  private:

@@ -26,15 +26,19 @@ ComplexVec3 operator*(Complex s, const ComplexVec3& a) { return {s * a.x, s * a.
 double beyond_boundary(const Wedge& wedge, const EdgePassage& passage, Boundary boundary) {
   const double sum = passage.phi_in + passage.phi_out;
   switch (boundary) {
-    case Boundary::incident: return std::min(std::abs(passage.phi_in - passage.phi_out) - pi, pi);
+    case Boundary::incident:
+      return std::min(std::abs(passage.phi_in - passage.phi_out) - pi, pi);
     // The two sides of a thin screen are one mirror: its image wave has one edge term, not two (Sommerfeld).
-    case Boundary::face0: return std::min(wedge.free_rim ? std::min(sum, 4 * pi - sum) - pi : sum - pi, pi);
-    case Boundary::facen: return std::min(2 * wedge.exterior_angle - sum - pi, pi);
+    case Boundary::face0:
+      return std::min(wedge.free_rim ? std::min(sum, 4 * pi - sum) - pi : sum - pi, pi);
+    case Boundary::facen:
+      return std::min(2 * wedge.exterior_angle - sum - pi, pi);
   }
   return pi;
 }
 
-/// Unit vectors along and across the edge's cone for a wave of direction k: φ̂ = ê × k/|ê × k|, β̂ = φ̂ × k. Turned about the edge as k is.
+/// Unit vectors along and across the edge's cone for a wave of direction k: φ̂ = ê × k/|ê × k|, β̂ = φ̂ × k. Turned about
+/// the edge as k is.
 struct ConeFrame {
   Vec3 phi, beta;
   ConeFrame(const Vec3& edge, const Vec3& k) : phi(normalized(cross(edge, k))), beta(cross(phi, k)) {}
@@ -61,16 +65,16 @@ Complex end_weight(const Wedge& wedge, const EdgePassage& passage, double wavele
   // An end shared with another wedge is a corner: the product of the two edges' end waves is split between them.
   const auto share = [](std::uint32_t vertex) { return vertex == no_index ? 1.0 : 0.5; };
   Complex weight = passage.inside ? 1.0 : 0.0;
-  weight += share(wedge.vertex_start) *
-            edge_end_wave(passage.detour_start, wavelength, wavenumber, passage.along >= 0);
+  weight += share(wedge.vertex_start) * edge_end_wave(passage.detour_start, wavelength, wavenumber, passage.along >= 0);
   weight += share(wedge.vertex_end) *
             edge_end_wave(passage.detour_end, wavelength, wavenumber, passage.along <= wedge.length);
   return weight;
 }
 
-/// cos of the angle of incidence on the faces of a wedge, the mean of both legs' coefficients makes the term reciprocal.
-ReflectionCoefficients wedge_face_reflection(const Plan& plan, std::uint32_t material, std::size_t band, double sin_beta,
-                                             double azimuth_in, double azimuth_out) {
+/// cos of the angle of incidence on the faces of a wedge, the mean of both legs' coefficients makes the term
+/// reciprocal.
+ReflectionCoefficients wedge_face_reflection(const Plan& plan, std::uint32_t material, std::size_t band,
+                                             double sin_beta, double azimuth_in, double azimuth_out) {
   const auto at = [&](double azimuth) {
     return face_reflection(plan, material, band, std::min(1.0, sin_beta * std::abs(std::sin(azimuth))));
   };
@@ -78,7 +82,8 @@ ReflectionCoefficients wedge_face_reflection(const Plan& plan, std::uint32_t mat
   return {0.5 * (in.te + out.te), 0.5 * (in.tm + out.tm)};
 }
 
-/// Bound on |U| of a straight edge: its value at the boundary, its asymptote beyond (|w| decreases and stays below √2/(π v)).
+/// Bound on |U| of a straight edge: its value at the boundary, its asymptote beyond (|w| decreases and stays below
+/// √2/(π v)).
 double edge_wave_bound(double v) { return v < 0.45 ? 0.5 : 1 / (std::sqrt(2.0) * pi * v); }
 
 }  // namespace
@@ -86,7 +91,8 @@ double edge_wave_bound(double v) { return v < 0.45 ? 0.5 : 1 / (std::sqrt(2.0) *
 double power_bound(const Scene& scene, const Plan& plan, const PathGeometry& geometry) {
   const double wavelength = 2 * pi / plan.wavenumber.front();
   constexpr double highest_gain = 1.65;
-  double bound = plan.request.kind == WaveKind::radio ? highest_gain * std::pow(wavelength / (4 * pi), 2) : 1 / (4 * pi);
+  double bound =
+      plan.request.kind == WaveKind::radio ? highest_gain * std::pow(wavelength / (4 * pi), 2) : 1 / (4 * pi);
   // Lengths of a chain of edges: √L √(ρ/(s(s+ρ))) with L ≤ s_out, and ρ at most the whole way so far.
   double way = geometry.edge_count == 0 ? geometry.length : geometry.edges[0].s_in;
   bound /= way * way;
@@ -168,7 +174,8 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
         if (faces) {
           const double n = wedge.exterior_angle;
           const Vec3 normaln = std::sin(n) * wedge.along0 - std::cos(n) * wedge.normal0;
-          const auto add_image = [&](Boundary boundary, const Vec3& normal, std::uint32_t material, double a, double b) {
+          const auto add_image = [&](Boundary boundary, const Vec3& normal, std::uint32_t material, double a,
+                                     double b) {
             const auto r = wedge_face_reflection(plan, material, band, passage.sin_beta, a, b);
             const ComplexVec3 image = reflect(e, k[i], normal, r);
             const ConeFrame frame(wedge.direction, k[i] - 2 * dot(k[i], normal) * normal);
@@ -194,9 +201,8 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
       ++edge_number;
     }
     const double scale = radio ? wavelength / (4 * pi) : 1 / std::sqrt(4 * pi);
-    const Complex carrier =
-        std::polar(amplitude * scale * std::exp(-plan.attenuation[band] * geometry.length),
-                   -std::remainder(wavenumber * geometry.length, 2 * pi));
+    const Complex carrier = std::polar(amplitude * scale * std::exp(-plan.attenuation[band] * geometry.length),
+                                       -std::remainder(wavenumber * geometry.length, 2 * pi));
     if (radio)
       field[band] = {carrier * dot(e, receiver.theta), carrier * dot(e, receiver.phi)};
     else

@@ -33,8 +33,14 @@ class Grower {
  public:
   Grower(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter, const CoverageGrid& grid,
          const Discovered& discovered, const std::vector<double>& known)
-      : scene_(scene), tracer_(tracer), plan_(plan), transmitter_(plan.request.transmitters[transmitter]), grid_(grid),
-        discovered_(discovered), known_(known), wavelength_(2 * pi / plan.wavenumber.front()) {}
+      : scene_(scene),
+        tracer_(tracer),
+        plan_(plan),
+        transmitter_(plan.request.transmitters[transmitter]),
+        grid_(grid),
+        discovered_(discovered),
+        known_(known),
+        wavelength_(2 * pi / plan.wavenumber.front()) {}
 
   /// One sequence from its seeds [first, last).
   void grow(std::uint32_t sequence, const Seed* first, const Seed* last, Workspace& work, BlockPairs& out) const {
@@ -56,7 +62,8 @@ class Grower {
         Pair pair{cell, sequence, 0, 0, 0};
         const Answer answer = arrive(unfolded, interactions, may_be_negligible, work, pair, out.shadow_rays);
         const bool arrives = answer == Answer::arrives;
-        const Seed* here = std::lower_bound(seed, last, cell, [](const Seed& s, std::uint32_t c) { return s.cell < c; });
+        const Seed* here =
+            std::lower_bound(seed, last, cell, [](const Seed& s, std::uint32_t c) { return s.cell < c; });
         // A seed at whose cell nothing arrives (a sliver between the sub-points) still lets its neighbours be asked.
         const bool is_seed = here != last && here->cell == cell;
         if (!arrives && !(is_seed && here->crossed && answer == Answer::blocked)) continue;
@@ -153,7 +160,8 @@ std::vector<SeededSequence> seeded_sequences(const std::vector<Seed>& seeds, std
   std::vector<SeededSequence> found;
   for (std::size_t first = from, last = from; first < seeds.size(); first = last) {
     float gain = 0;
-    for (; last < seeds.size() && seeds[last].sequence == seeds[first].sequence; ++last) gain = std::max(gain, seeds[last].gain);
+    for (; last < seeds.size() && seeds[last].sequence == seeds[first].sequence; ++last)
+      gain = std::max(gain, seeds[last].gain);
     found.push_back({first, last, static_cast<int>(-std::log10(std::min(gain, 1.0f)))});
   }
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.stage < b.stage; });
@@ -163,8 +171,8 @@ std::vector<SeededSequence> seeded_sequences(const std::vector<Seed>& seeds, std
 }  // namespace
 
 void grow(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter, const CoverageGrid& grid,
-          const Discovered& discovered, std::size_t first_sequence, Grown& grown, const std::function<void(double)>& progress,
-          const std::atomic<bool>* stop) {
+          const Discovered& discovered, std::size_t first_sequence, Grown& grown,
+          const std::function<void(double)>& progress, const std::atomic<bool>* stop) {
   const unsigned threads = plan.request.threads ? plan.request.threads : hardware_threads();
   grown.known.resize(grid.layout.size(), 0);
   std::vector<double>& known = grown.known;
@@ -185,7 +193,8 @@ void grow(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_
     learn(0);
   }
   const std::vector<Seed>& seeds = discovered.seeds;
-  const auto new_seeds = std::partition_point(seeds.begin(), seeds.end(), [&](const Seed& s) { return s.sequence < first_sequence; });
+  const auto new_seeds =
+      std::partition_point(seeds.begin(), seeds.end(), [&](const Seed& s) { return s.sequence < first_sequence; });
   std::vector<SeededSequence> found = seeded_sequences(seeds, static_cast<std::size_t>(new_seeds - seeds.begin()));
   for (std::size_t begin = 0, end = 0; begin < found.size() && !(stop && *stop); begin = end) {
     while (end < found.size() && found[end].stage == found[begin].stage) ++end;
@@ -195,14 +204,14 @@ void grow(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_
               [&](std::size_t block, Workspace& work, BlockPairs& out) {
                 const std::size_t first = begin + block * sequences_per_block;
                 for (std::size_t i = first; i < std::min(end, first + sequences_per_block); ++i)
-                  grower.grow(seeds[found[i].first].sequence, seeds.data() + found[i].first, seeds.data() + found[i].last, work, out);
+                  grower.grow(seeds[found[i].first].sequence, seeds.data() + found[i].first,
+                              seeds.data() + found[i].last, work, out);
               });
     learn(before);
     if (progress) progress(double(end) / double(found.size()));
   }
-  std::sort(grown.pairs.begin(), grown.pairs.end(), [](const Pair& a, const Pair& b) {
-    return a.cell != b.cell ? a.cell < b.cell : a.sequence < b.sequence;
-  });
+  std::sort(grown.pairs.begin(), grown.pairs.end(),
+            [](const Pair& a, const Pair& b) { return a.cell != b.cell ? a.cell < b.cell : a.sequence < b.sequence; });
 }
 
 }  // namespace grimaldi

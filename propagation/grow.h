@@ -1,5 +1,6 @@
 #pragma once
-// From the cells where a sequence was found to all cells that it reaches: growing by neighbours until it no longer arrives.
+// From the cells where a sequence was found to all cells that it reaches: growing by neighbours until it no longer
+// arrives.
 
 #include <atomic>
 #include <cstdint>
@@ -27,15 +28,17 @@ struct Grown {
   std::uint64_t shadow_rays = 0;
 };
 
-/// Share of a cell's power from stronger sequences below which one sequence of two and more interactions with an edge is left out of the cell (and does not grow
-/// through it): −35 dB. In Etoile a street point has some 2,000 pairs of edges, of which those below this bound carry 0.1 dB together.
+/// Share of a cell's power from stronger sequences below which one sequence of two and more interactions with an edge
+/// is left out of the cell (and does not grow through it): −35 dB. In Etoile a street point has some 2,000 pairs of
+/// edges, of which those below this bound carry 0.1 dB together.
 inline constexpr double negligible_share = 3.2e-4;
 
-/// Grows the sequences of `discovered` from number `first_sequence` on and adds them to `grown`, strongest first by the beams' estimate, in stages of 10 dB: a stage
-/// knows the power that the ones before it brought to each cell (`negligible_share`). The empty sequence, if among them, asks every cell. Cells wholly inside a
-/// solid are not asked. Independent of the number of threads.
+/// Grows the sequences of `discovered` from number `first_sequence` on and adds them to `grown`, strongest first by the
+/// beams' estimate, in stages of 10 dB: a stage knows the power that the ones before it brought to each cell
+/// (`negligible_share`). The empty sequence, if among them, asks every cell. Cells wholly inside a solid are not asked.
+/// Independent of the number of threads.
 void grow(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter, const CoverageGrid& grid,
-          const Discovered& discovered, std::size_t first_sequence, Grown& grown, const std::function<void(double)>& progress,
-          const std::atomic<bool>* stop);
+          const Discovered& discovered, std::size_t first_sequence, Grown& grown,
+          const std::function<void(double)>& progress, const std::atomic<bool>* stop);
 
 }  // namespace grimaldi

@@ -11,8 +11,8 @@ namespace grimaldi {
 /// mapping of the (hemi)sphere using SIMD", J. Graphics Tools 13(3), 2008. u, v in [0, 1]. Returns a unit vector.
 Vec3 equal_area_direction(double u, double v);
 
-/// Direction of beam `index` of `count` in pass `pass`: the point at (index + shift)/count along Morton's curve through the
-/// square, the square shifted on its torus by amounts drawn from (seed, pass). Each beam stands for 4π/count sr.
+/// Direction of beam `index` of `count` in pass `pass`: the point at (index + shift)/count along Morton's curve through
+/// the square, the square shifted on its torus by amounts drawn from (seed, pass). Each beam stands for 4π/count sr.
 class Launcher {
  public:
   Launcher(std::uint64_t seed, std::uint32_t pass, std::uint64_t count);

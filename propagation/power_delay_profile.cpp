@@ -23,22 +23,24 @@ double azimuth(const Vec3& direction) {
   const double degrees = std::atan2(direction.x, direction.y) * 180 / pi;
   return degrees < 0 ? degrees + 360 : degrees;
 }
-double elevation(const Vec3& direction) { return std::atan2(direction.z, std::hypot(direction.x, direction.y)) * 180 / pi; }
+double elevation(const Vec3& direction) {
+  return std::atan2(direction.z, std::hypot(direction.x, direction.y)) * 180 / pi;
+}
 
 std::string interaction_tokens(const Scene& scene, std::span<const Interaction> interactions) {
   std::string text;
   for (const Interaction i : interactions) {
     if (!text.empty()) text += ' ';
-    text += is_edge(i) ? fmt::format("D:{}", index_of(i))
-                       : "R:" + scene.materials[scene.patches.patches[i].material].name;
+    text +=
+        is_edge(i) ? fmt::format("D:{}", index_of(i)) : "R:" + scene.materials[scene.patches.patches[i].material].name;
   }
   return text;
 }
 
 /// The paths of one receiver, in the order of the sequences.
-std::vector<Arrival> arrivals_at(const Scene& scene, const Tracer& tracer, const Plan& plan, const Transmitter& transmitter,
-                                 const Vec3& position, const Discovered& discovered, std::uint64_t& shadow_rays,
-                                 const std::atomic<bool>* stop) {
+std::vector<Arrival> arrivals_at(const Scene& scene, const Tracer& tracer, const Plan& plan,
+                                 const Transmitter& transmitter, const Vec3& position, const Discovered& discovered,
+                                 std::uint64_t& shadow_rays, const std::atomic<bool>* stop) {
   struct Found {
     std::vector<Arrival> arrivals;
     std::uint64_t shadow_rays = 0;
@@ -74,8 +76,8 @@ std::vector<Arrival> arrivals_at(const Scene& scene, const Tracer& tracer, const
   return all;
 }
 
-void delay_statistics(const std::vector<Arrival>& arrivals, const Plan& plan, Polarisation polarisation, std::size_t band,
-                      double& mean_delay, double& spread) {
+void delay_statistics(const std::vector<Arrival>& arrivals, const Plan& plan, Polarisation polarisation,
+                      std::size_t band, double& mean_delay, double& spread) {
   double strongest = 0, shortest = std::numeric_limits<double>::infinity();
   for (const Arrival& a : arrivals) {
     strongest = std::max(strongest, received_power(a.field[band], polarisation));
@@ -199,7 +201,8 @@ void fill_bins(const Plan& plan, std::vector<ReceiverProfile>& profiles, std::ve
         for (std::size_t band = 0; band < bands; ++band) {
           std::array<std::complex<double>, 2> field{path.amplitude[band], 0.0};
           if (plan.polarisations() == 2) field[1] = path.amplitude[bands + band];
-          profile.power[(t * bands + band) * bins + bin] += received_power(field, plan.request.receivers[r].polarisation);
+          profile.power[(t * bands + band) * bins + bin] +=
+              received_power(field, plan.request.receivers[r].polarisation);
         }
       }
     for (auto& paths : profile.paths)

@@ -14,16 +14,17 @@ namespace grimaldi {
 std::vector<ReceiverProfile> empty_profiles(const Plan& plan);
 
 /// Adds transmitter `transmitter` to `profiles`: connects every discovered sequence to every receiver.
-/// total = Σ|h|² + interference of composites, total_coherent = Σ over the receiver's polarisations of |Σ h|²; delay statistics weighted by power over the paths within the dynamic range below the
-/// strongest (ITU-R P.1407); paths strongest first (by power at the first band; ties by sequence).
-/// Returns the shadow rays asked. The same bits on any number of threads.
+/// total = Σ|h|² + interference of composites, total_coherent = Σ over the receiver's polarisations of |Σ h|²; delay
+/// statistics weighted by power over the paths within the dynamic range below the strongest (ITU-R P.1407); paths
+/// strongest first (by power at the first band; ties by sequence). Returns the shadow rays asked. The same bits on any
+/// number of threads.
 std::uint64_t connect_receivers(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
                                 const Discovered& discovered, std::vector<ReceiverProfile>& profiles,
                                 const std::atomic<bool>* stop);
 
-/// Fills delay bins and power of each profile once all transmitters are in: bins of the plan's resolution from the first to
-/// the last path (at least one bin, at most 100,000: then the resolution is coarsened to fit and a warning says so), a bin holds Σ|h|² of its
-/// paths; the cross terms of composites stand in the total only.
+/// Fills delay bins and power of each profile once all transmitters are in: bins of the plan's resolution from the
+/// first to the last path (at least one bin, at most 100,000: then the resolution is coarsened to fit and a warning
+/// says so), a bin holds Σ|h|² of its paths; the cross terms of composites stand in the total only.
 void fill_bins(const Plan& plan, std::vector<ReceiverProfile>& profiles, std::vector<Diagnostic>& warnings);
 
 }  // namespace grimaldi

@@ -33,21 +33,21 @@ struct CoverageMap {
 
 /// One path for people.
 struct PathStory {
-  double delay = 0;                                    ///< s
-  std::vector<std::complex<double>> amplitude;         ///< [polarisation][band]
+  double delay = 0;                             ///< s
+  std::vector<std::complex<double>> amplitude;  ///< [polarisation][band]
   double departure_azimuth = 0, departure_elevation = 0, arrival_azimuth = 0, arrival_elevation = 0;  ///< degrees
-  std::string interactions;                            ///< tokens R:material, D:edge-number, by blanks
-  std::vector<Vec3> points;                            ///< transmitter, interaction points, receiver
+  std::string interactions;  ///< tokens R:material, D:edge-number, by blanks
+  std::vector<Vec3> points;  ///< transmitter, interaction points, receiver
 };
 
 /// Profile at one receiver. T transmitters, F bands, B delay bins.
 struct ReceiverProfile {
   std::string name;
   Vec3 position;
-  std::vector<double> delay;            ///< [B], bin centres, s, absolute
-  std::vector<double> power;            ///< [T][F][B]
-  std::vector<double> total;            ///< [T][F]; power sum of composites
-  std::vector<double> total_coherent;   ///< [T][F]; all fields added per polarisation
+  std::vector<double> delay;                         ///< [B], bin centres, s, absolute
+  std::vector<double> power;                         ///< [T][F][B]
+  std::vector<double> total;                         ///< [T][F]; power sum of composites
+  std::vector<double> total_coherent;                ///< [T][F]; all fields added per polarisation
   std::vector<double> mean_delay, rms_delay_spread;  ///< [T][F], s; NaN where nothing arrived
   std::vector<std::vector<PathStory>> paths;         ///< [T], strongest first, at most max_paths
 };
@@ -59,7 +59,8 @@ struct FluxLedger {
 
 struct RunFigures {
   double wall_seconds = 0, cpu_seconds = 0, trace_seconds = 0;
-  double discover_seconds = 0, merge_seconds = 0, grow_seconds = 0, evaluate_seconds = 0;  ///< wall time of the stages; merge is part of discover
+  double discover_seconds = 0, merge_seconds = 0, grow_seconds = 0,
+         evaluate_seconds = 0;  ///< wall time of the stages; merge is part of discover
   unsigned threads = 1;
   std::uint64_t peak_memory_bytes = 0;
   std::uint64_t rays = 0, segments = 0, shadow_rays = 0;

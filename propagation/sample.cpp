@@ -34,9 +34,9 @@ struct Lamp {
 struct Lit {
   std::uint32_t lamp, wedge;
   EdgeSector sector;
-  double axial, radial;      ///< of the lamp in the wedge's frame, m from its start
+  double axial, radial;         ///< of the lamp in the wedge's frame, m from its start
   double angle_from, angle_to;  ///< atan((t − axial)/radial) at the ends of the sampled part
-  double cumulative;         ///< probability of this and all before
+  double cumulative;            ///< probability of this and all before
   double probability;
 };
 
@@ -53,10 +53,17 @@ struct Tally {
 
 class EdgeSampler {
  public:
-  EdgeSampler(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter, const CoverageGrid& grid,
-              std::uint64_t samples, std::size_t band, const SampledClasses& classes)
-      : scene_(scene), tracer_(tracer), plan_(plan), transmitter_(plan.request.transmitters[transmitter]), grid_(grid),
-        samples_(samples), band_(band), wavelength_(2 * pi / plan.wavenumber[band]), classes_(classes),
+  EdgeSampler(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
+              const CoverageGrid& grid, std::uint64_t samples, std::size_t band, const SampledClasses& classes)
+      : scene_(scene),
+        tracer_(tracer),
+        plan_(plan),
+        transmitter_(plan.request.transmitters[transmitter]),
+        grid_(grid),
+        samples_(samples),
+        band_(band),
+        wavelength_(2 * pi / plan.wavenumber[band]),
+        classes_(classes),
         radio_(plan.request.kind == WaveKind::radio) {
     if (!plan.request.diffraction || plan.request.max_diffractions < 1 || plan.request.depth < 1) return;
     add_lamps();
@@ -68,7 +75,8 @@ class EdgeSampler {
   /// Adds the crossings of sample `index`, one for each cell.
   void sample(std::uint64_t index, std::vector<Crossing>& crossings) const {
     const auto u = uniform4(plan_.request.seed, sample_stream, index, 0);
-    const auto found = std::lower_bound(lit_.begin(), lit_.end(), u[0], [](const Lit& a, double x) { return a.cumulative < x; });
+    const auto found =
+        std::lower_bound(lit_.begin(), lit_.end(), u[0], [](const Lit& a, double x) { return a.cumulative < x; });
     const Lit& lit = found == lit_.end() ? lit_.back() : *found;
     const Wedge& wedge = scene_.wedges.wedges[lit.wedge];
     const Lamp& lamp = lamps_[lit.lamp];
@@ -81,10 +89,12 @@ class EdgeSampler {
     const AzimuthLaw law(lit.sector, start.s_in, wavelength_, start.sin_beta);
     start.phi = law.draw(u[2], u[3]);
     // Density of the point along the edge: dθ/dt = ρ/s'².
-    const double density = lit.probability * lit.radial / (start.s_in * start.s_in * (lit.angle_to - lit.angle_from)) * law.density(start.phi);
+    const double density = lit.probability * lit.radial / (start.s_in * start.s_in * (lit.angle_to - lit.angle_from)) *
+                           law.density(start.phi);
     const double arrived = arriving_power(lamp, wedge, start);
     if (arrived == 0) return;
-    start.weight = arrived / (4 * pi * start.s_in * start.s_in) * start.sin_beta * start.sin_beta / (density * double(samples_));
+    start.weight =
+        arrived / (4 * pi * start.s_in * start.s_in) * start.sin_beta * start.sin_beta / (density * double(samples_));
     follow(lamp, start, crossings);
   }
 
@@ -126,7 +136,7 @@ class EdgeSampler {
         lit.wedge = w;
         if (!lights(lamps_[l], scene_.wedges.wedges[w], lit)) continue;
         // Power of the edge: ∫ I sin β √(λ s') dt = √λ/4π ∫ dθ/√s' ≤ … (θ₁ − θ₀)/√min s'.
-        const double nearest = lit.angle_from > 0   ? lit.radial / std::cos(lit.angle_from)
+        const double nearest = lit.angle_from > 0 ? lit.radial / std::cos(lit.angle_from)
                                : lit.angle_to < 0 ? lit.radial / std::cos(lit.angle_to)
                                                   : lit.radial;
         lit.probability = (lit.angle_to - lit.angle_from) / std::sqrt(nearest);
@@ -146,7 +156,8 @@ class EdgeSampler {
       // Some of the edge lies before the last mirror: on the side away from the image.
       const Patch& patch = scene_.patches.patches[last];
       const double image = dot(patch.normal, lamp.position) - patch.offset;
-      const double ends[2] = {dot(patch.normal, wedge.start) - patch.offset, dot(patch.normal, wedge.end()) - patch.offset};
+      const double ends[2] = {dot(patch.normal, wedge.start) - patch.offset,
+                              dot(patch.normal, wedge.end()) - patch.offset};
       if (!(image * ends[0] < 0 || image * ends[1] < 0)) return false;
     }
     const Vec3 way = lamp.position - wedge.start;
@@ -158,14 +169,17 @@ class EdgeSampler {
     double phi = std::atan2(dot(across, wedge.normal0), dot(across, wedge.along0));
     if (phi < -rounding) phi += 2 * pi;
     if (phi > wedge.exterior_angle + rounding) return false;
-    lit.sector = {wedge.exterior_angle, std::clamp(phi, 0.0, wedge.exterior_angle), wedge.free_rim, plan_.request.reflection};
+    lit.sector = {wedge.exterior_angle, std::clamp(phi, 0.0, wedge.exterior_angle), wedge.free_rim,
+                  plan_.request.reflection};
     lit.angle_from = std::atan((-beyond_end(lit.axial, lit.radial) - lit.axial) / lit.radial);
-    lit.angle_to = std::atan((wedge.length + beyond_end(wedge.length - lit.axial, lit.radial) - lit.axial) / lit.radial);
+    lit.angle_to =
+        std::atan((wedge.length + beyond_end(wedge.length - lit.axial, lit.radial) - lit.axial) / lit.radial);
     return true;
   }
 
-  /// Length beyond an end, `towards` m along the edge from the source's foot to it, up to which v_V < 3 for a receiver at any distance: the detour over the
-  /// end is least for the farthest one, |SV| − |SQ| + a cos β; it grows with a. At most 10 |SV|.
+  /// Length beyond an end, `towards` m along the edge from the source's foot to it, up to which v_V < 3 for a receiver
+  /// at any distance: the detour over the end is least for the farthest one, |SV| − |SQ| + a cos β; it grows with a. At
+  /// most 10 |SV|.
   double beyond_end(double towards, double radial) const {
     const double most = end_parameter_limit * end_parameter_limit * wavelength_ / 4;
     const double to_end = std::hypot(towards, radial);
@@ -179,7 +193,8 @@ class EdgeSampler {
     return high;
   }
 
-  /// Antenna gain times reflectances of the way from the transmitter to the edge; 0 if it is blocked. Points beyond an end are seen where the end is.
+  /// Antenna gain times reflectances of the way from the transmitter to the edge; 0 if it is blocked. Points beyond an
+  /// end are seen where the end is.
   double arriving_power(const Lamp& lamp, const Wedge& wedge, const Start& start) const {
     Vec3 point = outside(wedge, wedge.point(std::clamp(start.along, 0.0, wedge.length)));
     double power = 1;
@@ -196,7 +211,8 @@ class EdgeSampler {
       leave1 = no_index;
     }
     if (!tracer_.visible(transmitter_.position, point)) return 0;
-    return radio_ ? power * norm2(radiated_field(transmitter_.antenna, normalized(point - transmitter_.position))) : power;
+    return radio_ ? power * norm2(radiated_field(transmitter_.antenna, normalized(point - transmitter_.position)))
+                  : power;
   }
 
   Vec3 outside(const Wedge& wedge, const Vec3& point) const {
@@ -212,12 +228,14 @@ class EdgeSampler {
   void follow(const Lamp& lamp, const Start& start, std::vector<Crossing>& crossings) const {
     const Wedge& wedge = start.wedge;
     const double cos_beta = (start.along - start.lit.axial) / start.s_in;
-    const Vec3 unfolded = normalized(cos_beta * wedge.direction + start.sin_beta * (std::cos(start.phi) * wedge.along0 +
-                                                                                    std::sin(start.phi) * wedge.normal0));
+    const Vec3 unfolded =
+        normalized(cos_beta * wedge.direction +
+                   start.sin_beta * (std::cos(start.phi) * wedge.along0 + std::sin(start.phi) * wedge.normal0));
     const int before = static_cast<int>(lamp.patches.size());
-    const int after = !plan_.request.reflection
-                          ? 0
-                          : std::min({classes_.after, plan_.request.max_reflections - before, plan_.request.depth - 1 - before});
+    const int after =
+        !plan_.request.reflection
+            ? 0
+            : std::min({classes_.after, plan_.request.max_reflections - before, plan_.request.depth - 1 - before});
     Vec3 origin = outside(wedge, start.point), direction = unfolded;
     std::uint32_t leave0 = wedge.patch0, leave1 = wedge.patchn;
     double walked = 0, power = start.weight;
@@ -226,7 +244,8 @@ class EdgeSampler {
       const double rise = grid_.layout.z - origin.z;
       if (rise * direction.z > 0) {
         const double t = rise / direction.z;
-        if (hit.triangle == no_index || t < hit.distance) cross(lamp, start, unfolded, origin + t * direction, walked + t, power / std::abs(direction.z), crossings);
+        if (hit.triangle == no_index || t < hit.distance)
+          cross(lamp, start, unfolded, origin + t * direction, walked + t, power / std::abs(direction.z), crossings);
       }
       if (hit.triangle == no_index || reflections >= after) return;
       const std::uint32_t patch_index = scene_.patches.triangle_patch[hit.triangle];
@@ -272,7 +291,8 @@ class EdgeSampler {
     const auto add = [&](std::complex<double> wave, std::uint32_t material, double azimuth_in, double azimuth_out) {
       for (const double azimuth : {azimuth_in, azimuth_out}) {
         // Sound's walls are the same at every angle.
-        const ReflectionCoefficients r = face_reflection(plan_, material, band_, std::min(1.0, start.sin_beta * std::abs(std::sin(azimuth))));
+        const ReflectionCoefficients r =
+            face_reflection(plan_, material, band_, std::min(1.0, start.sin_beta * std::abs(std::sin(azimuth))));
         te += 0.5 * r.te * wave;
         tm += 0.5 * r.tm * wave;
       }
@@ -344,7 +364,8 @@ SampledLayer sample_diffraction(const Scene& scene, const Tracer& tracer, const 
                                 const SampledClasses& classes, const std::atomic<bool>* stop) {
   GRIMALDI_EXPECT(samples >= 2 && band < plan.bands() && transmitter < plan.request.transmitters.size());
   const std::size_t cells = grid.layout.size();
-  SampledLayer layer{std::vector<double>(cells, 0), std::vector<double>(cells, 0), std::vector<std::uint32_t>(cells, 0)};
+  SampledLayer layer{std::vector<double>(cells, 0), std::vector<double>(cells, 0),
+                     std::vector<std::uint32_t>(cells, 0)};
   const EdgeSampler sampler(scene, tracer, plan, transmitter, grid, samples, band, classes);
   const std::uint64_t blocks = sampler.empty() ? 0 : (samples + block_size - 1) / block_size;
   std::vector<std::vector<Tally>> tallies(blocks_at_once);

@@ -1,6 +1,7 @@
 #pragma once
-// The sampled estimator: power launched from edges by the free-space diffraction BSDF and counted where it crosses the cells.
-// Slower than the connected map and independent of it: no sequences, no images behind the edge, no Fermat points.
+// The sampled estimator: power launched from edges by the free-space diffraction BSDF and counted where it crosses the
+// cells. Slower than the connected map and independent of it: no sequences, no images behind the edge, no Fermat
+// points.
 
 #include <atomic>
 #include <cstddef>
@@ -20,21 +21,24 @@ struct SampledClasses {
   int after = 32;
 };
 
-/// Mean path gain over the outdoor part of each cell (1; sound: m⁻²) and its standard error; NaN for cells wholly inside.
+/// Mean path gain over the outdoor part of each cell (1; sound: m⁻²) and its standard error; NaN for cells wholly
+/// inside.
 struct SampledLayer {
   std::vector<double> gain, standard_error;
   std::vector<std::uint32_t> hits;  ///< samples that counted in each cell
 };
 
 /// The diffraction layer of a map for paths with one edge, by sampling the BSDF at silhouettes.
-/// A wedge is chosen with probability proportional to a bound of its power, a point on it with its angle at the source uniform, seen from the source or not; the
-/// azimuth by AzimuthLaw; the beam follows the Keller cone and reflects up to the depth. Each crossing of the grid's plane in a cell of outdoor
-/// area A adds (1/N) I_Q L sin²β ½Σ_pol|Σ r U|² |T|² R c/(p A |cos θ|): I_Q = antenna gain/(4π s'²), R = power reflectances and air, p the probability density of the draw,
-/// c = λ²/4π (sound: 1). T = the ends' waves; points up to v_V = 3 beyond an end are sampled too.
-/// Source images of up to classes.before reflections are tabled against all wedges: patches^p × wedges entries.
-/// Polarisation: faces and face terms by the mean power of both; exact for sound and without reflection. Others: E, r⊥ and r∥ each for itself.
-/// Inputs: samples N ≥ 2, band of the plan. Returns the layer; unbiased but for the polarisation. standard_error² = (Σx² − (Σx)²/N)/(1 − 1/N), x a sample's share.
-/// Independent of the number of threads: draws from (seed, sample), sums in the order of the samples' blocks. `stop`, if set, ends early with an empty layer.
+/// A wedge is chosen with probability proportional to a bound of its power, a point on it with its angle at the source
+/// uniform, seen from the source or not; the azimuth by AzimuthLaw; the beam follows the Keller cone and reflects up to
+/// the depth. Each crossing of the grid's plane in a cell of outdoor area A adds (1/N) I_Q L sin²β ½Σ_pol|Σ r U|² |T|²
+/// R c/(p A |cos θ|): I_Q = antenna gain/(4π s'²), R = power reflectances and air, p the probability density of the
+/// draw, c = λ²/4π (sound: 1). T = the ends' waves; points up to v_V = 3 beyond an end are sampled too. Source images
+/// of up to classes.before reflections are tabled against all wedges: patches^p × wedges entries. Polarisation: faces
+/// and face terms by the mean power of both; exact for sound and without reflection. Others: E, r⊥ and r∥ each for
+/// itself. Inputs: samples N ≥ 2, band of the plan. Returns the layer; unbiased but for the polarisation.
+/// standard_error² = (Σx² − (Σx)²/N)/(1 − 1/N), x a sample's share. Independent of the number of threads: draws from
+/// (seed, sample), sums in the order of the samples' blocks. `stop`, if set, ends early with an empty layer.
 SampledLayer sample_diffraction(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
                                 const CoverageGrid& grid, std::uint64_t samples, std::size_t band,
                                 const SampledClasses& classes = {}, const std::atomic<bool>* stop = nullptr);

@@ -21,8 +21,8 @@ inline constexpr std::size_t max_depth = 32;
 using SequenceHash = std::uint64_t;
 inline constexpr SequenceHash empty_sequence = 0x9e3779b97f4a7c15u;
 
-/// The name of a sequence with one more interaction. (Finaliser of splitmix64: a permutation, so that names collide only by
-/// chance: 1e-7 for a million sequences.)
+/// The name of a sequence with one more interaction. (Finaliser of splitmix64: a permutation, so that names collide
+/// only by chance: 1e-7 for a million sequences.)
 constexpr SequenceHash extended(SequenceHash hash, Interaction interaction) {
   std::uint64_t x = hash + 0x9e3779b97f4a7c15u * (std::uint64_t(interaction) + 1);
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -49,7 +49,8 @@ class SequenceTable {
   static constexpr std::uint32_t no_sequence = 0xffffffffu;
   std::uint32_t find(SequenceHash hash) const;
 
-  /// Numbers anew by fewest edges, then shortest, then by the interactions' values. Returns the new number of each old one.
+  /// Numbers anew by fewest edges, then shortest, then by the interactions' values. Returns the new number of each old
+  /// one.
   std::vector<std::uint32_t> sort();
 
   void clear();

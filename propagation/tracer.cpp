@@ -87,7 +87,8 @@ Tracer::Tracer(const Scene& scene) : device_(std::make_unique<Device>()), scene_
     rtcReleaseGeometry(geometry);
   }
   rtcCommitScene(device_->scene);
-  if (rtcGetDeviceError(device_->device) != RTC_ERROR_NONE) throw std::runtime_error("Embree could not build the scene");
+  if (rtcGetDeviceError(device_->device) != RTC_ERROR_NONE)
+    throw std::runtime_error("Embree could not build the scene");
 }
 
 Tracer::~Tracer() = default;

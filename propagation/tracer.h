@@ -17,27 +17,28 @@ struct Hit {
 };
 
 /// Rays in single precision choose the triangle; the point is recomputed in double. Const after construction, any
-/// number of threads may ask. Coordinates are taken relative to the scene's centre before they are rounded, so that a scene far
-/// from its origin loses nothing (5e5 m and 5e6 m alike).
+/// number of threads may ask. Coordinates are taken relative to the scene's centre before they are rounded, so that a
+/// scene far from its origin loses nothing (5e5 m and 5e6 m alike).
 class Tracer {
  public:
   explicit Tracer(const Scene& scene);
   ~Tracer();
   Tracer(Tracer&&) noexcept;
 
-  /// Nearest triangle from `origin` along the unit vector `direction`. Triangles of the patches `leave0`, `leave1` nearer than
-  /// `surface_gap()` are passed over: a ray never hits the face that it leaves.
-  Hit nearest(const Vec3& origin, const Vec3& direction, std::uint32_t leave0 = no_index, std::uint32_t leave1 = no_index) const;
+  /// Nearest triangle from `origin` along the unit vector `direction`. Triangles of the patches `leave0`, `leave1`
+  /// nearer than `surface_gap()` are passed over: a ray never hits the face that it leaves.
+  Hit nearest(const Vec3& origin, const Vec3& direction, std::uint32_t leave0 = no_index,
+              std::uint32_t leave1 = no_index) const;
 
   /// True if nothing lies strictly between `a` and `b`: no triangle is hit further than `surface_gap()` from both ends.
   bool visible(const Vec3& a, const Vec3& b) const;
 
-  /// True if `point` lies inside a solid: an odd number of surfaces, ground excluded, lies straight above it. Surfaces nearer to each other than
-  /// 1 mm along the ray count each (both sides of a party wall).
+  /// True if `point` lies inside a solid: an odd number of surfaces, ground excluded, lies straight above it. Surfaces
+  /// nearer to each other than 1 mm along the ray count each (both sides of a party wall).
   bool inside_solid(const Vec3& point) const;
 
-  /// Length within which a hit at the end of a ray is taken for the end itself: the rounding of single precision over the
-  /// extent of the scene, 16 ulp of half its diagonal, at least 0.1 mm. m.
+  /// Length within which a hit at the end of a ray is taken for the end itself: the rounding of single precision over
+  /// the extent of the scene, 16 ulp of half its diagonal, at least 0.1 mm. m.
   double surface_gap() const { return surface_gap_; }
 
  private:

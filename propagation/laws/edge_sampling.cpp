@@ -11,7 +11,8 @@
 namespace grimaldi {
 namespace {
 
-/// Share of the draws that is uniform over the exterior: where the terms' sum exceeds the lobes (products of terms far from both boundaries).
+/// Share of the draws that is uniform over the exterior: where the terms' sum exceeds the lobes (products of terms far
+/// from both boundaries).
 constexpr double uniform_share = 0.25;
 /// Below this, a boundary has no room on that side, rad.
 constexpr double least_reach = 1e-9;
@@ -70,7 +71,8 @@ double AzimuthLaw::density(double phi) const {
     const double epsilon = lobe.sign * (phi - lobe.boundary);
     if (epsilon < 0 || epsilon > lobe.reach) continue;
     // −d edge_tail/dv = 2π|U|², dv/dε = slope cos(ε/2).
-    lobes += 2 * pi * std::norm(edge_wave(parameter(epsilon), true)) * slope_ * std::cos(0.5 * epsilon) / (1 - lobe.tail);
+    lobes +=
+        2 * pi * std::norm(edge_wave(parameter(epsilon), true)) * slope_ * std::cos(0.5 * epsilon) / (1 - lobe.tail);
   }
   const double uniform = count_ == 0 ? 1 : uniform_share;
   return uniform / exterior_angle_ + (count_ == 0 ? 0 : (1 - uniform_share) / double(count_) * lobes);

@@ -1,8 +1,10 @@
 #pragma once
-// The sampled free-space diffraction BSDF: azimuths about an edge are drawn from a law close to the edge's own. exp(+jωt).
+// The sampled free-space diffraction BSDF: azimuths about an edge are drawn from a law close to the edge's own.
+// exp(+jωt).
 //
-// The power that an edge turns into azimuth ε per unit of its length is dP/(ds dε) = I L sin²β |Σ U(v)|². L = s s'/(s + s') is not known before the
-// next vertex is, so azimuths are drawn with L = s', its upper bound, and weighted by the true law afterwards.
+// The power that an edge turns into azimuth ε per unit of its length is dP/(ds dε) = I L sin²β |Σ U(v)|². L = s s'/(s +
+// s') is not known before the next vertex is, so azimuths are drawn with L = s', its upper bound, and weighted by the
+// true law afterwards.
 
 #include <array>
 #include <complex>
@@ -17,8 +19,9 @@ struct EdgeSector {
   bool faces = false;         ///< the faces reflect: images of the incident wave have edge terms too
 };
 
-/// Rotation ε beyond each boundary (> 0 on its dark side, at most π) at azimuth φ: of the incident wave, of its image in face 0, of that in face n.
-/// Formula: |φ−φ'| − π, φ+φ' − π, 2nπ − φ − φ' − π; the two sides of a free rim are one mirror, min(φ+φ', 4π−φ−φ') − π. Inputs rad.
+/// Rotation ε beyond each boundary (> 0 on its dark side, at most π) at azimuth φ: of the incident wave, of its image
+/// in face 0, of that in face n. Formula: |φ−φ'| − π, φ+φ' − π, 2nπ − φ − φ' − π; the two sides of a free rim are one
+/// mirror, min(φ+φ', 4π−φ−φ') − π. Inputs rad.
 std::array<double, 3> turns_beyond_boundaries(const EdgeSector& sector, double phi);
 
 /// Edge terms {U_i, U_0, U_n} at azimuth φ; those that the sector lacks are 0. Inputs: L m, λ m, sin β 0 … 1, φ rad.
@@ -26,13 +29,14 @@ std::array<double, 3> turns_beyond_boundaries(const EdgeSector& sector, double p
 std::array<std::complex<double>, 3> sector_waves(const EdgeSector& sector, double effective_distance, double wavelength,
                                                  double sin_beta, double phi);
 
-/// Power per unit length of edge of both sides of a boundary over irradiance × r_F sin β, paraxial: 1/(π√2); one side has half of it, 0.11254.
-/// Source: ∫_0^∞ |U(v)|² dv = 1/(2π), dv = √(2L/λ) sin β dε. Valid for L sin²β ≫ λ; error ~ 1/(π v(ε = π)) relative.
+/// Power per unit length of edge of both sides of a boundary over irradiance × r_F sin β, paraxial: 1/(π√2); one side
+/// has half of it, 0.11254. Source: ∫_0^∞ |U(v)|² dv = 1/(2π), dv = √(2L/λ) sin β dε. Valid for L sin²β ≫ λ; error ~
+/// 1/(π v(ε = π)) relative.
 inline constexpr double boundary_power = 0.22507907903927651;
 
-/// The law from which azimuths are drawn: a mixture of |U(v)|² on either side of each boundary inside the exterior, at L = s', and a uniform part over the exterior.
-/// A sample's weight is the true law over density(φ) (balance heuristic). It is bounded: L|U(v(L))|² ≤ s'|U(v(s'))|² for L ≤ s',
-/// and far from all boundaries the uniform part bounds it.
+/// The law from which azimuths are drawn: a mixture of |U(v)|² on either side of each boundary inside the exterior, at
+/// L = s', and a uniform part over the exterior. A sample's weight is the true law over density(φ) (balance heuristic).
+/// It is bounded: L|U(v(L))|² ≤ s'|U(v(s'))|² for L ≤ s', and far from all boundaries the uniform part bounds it.
 class AzimuthLaw {
  public:
   /// Inputs: provisional effective distance s' (m, > 0), λ (m, > 0), sin β (0 … 1, > 0).

@@ -17,7 +17,8 @@ double difference_over(double x) {
   const double u = 0.5 * x, square = u * u;
   if (std::abs(u) >= 1) return (std::cos(u) - sinc(u)) / x;
   double nested = 1;
-  for (const double divisor : {304.0, 238.0, 180.0, 130.0, 88.0, 54.0, 28.0, 10.0}) nested = 1 - square / divisor * nested;
+  for (const double divisor : {304.0, 238.0, 180.0, 130.0, 88.0, 54.0, 28.0, 10.0})
+    nested = 1 - square / divisor * nested;
   return -u / 6 * nested;
 }
 
@@ -46,7 +47,8 @@ std::complex<double> published_edge_wave(double wavenumber, const PublishedEdge&
   const double without_lobe = std::sqrt(-std::expm1(-square / 6));
   const std::complex<double> a = edge.start_amplitude, b = edge.end_amplitude, i{0, 1};
   const std::complex<double> shape = (a - b) * alpha1(zeta_x, zeta_y) + 0.5 * i * (a + b) * alpha2(zeta_x, zeta_y);
-  return without_lobe * wavenumber * (ex * ex + ey * ey) * std::polar(1.0, -std::remainder(wavenumber * middle, 2 * pi)) * shape;
+  return without_lobe * wavenumber * (ex * ex + ey * ey) *
+         std::polar(1.0, -std::remainder(wavenumber * middle, 2 * pi)) * shape;
 }
 
 double published_edge_power(const PublishedEdge& edge) {
@@ -75,9 +77,11 @@ double power_on_obstacle(const PublishedFootprint& footprint, double distance) {
   return 0.5 * std::erfc(-distance / (std::sqrt(2.0) * footprint.sigma));
 }
 
-double published_scattering(const PublishedFootprint& footprint, double wavenumber, double distance, const PlanePoint& xi) {
+double published_scattering(const PublishedFootprint& footprint, double wavenumber, double distance,
+                            const PlanePoint& xi) {
   std::complex<double> sum = 0;
-  for (const PublishedEdge& edge : straight_silhouette(footprint, distance)) sum += published_edge_wave(wavenumber, edge, xi);
+  for (const PublishedEdge& edge : straight_silhouette(footprint, distance))
+    sum += published_edge_wave(wavenumber, edge, xi);
   return std::norm(sum) / power_on_obstacle(footprint, distance);
 }
 
@@ -102,7 +106,8 @@ double published_half_plane_level(const PublishedFootprint& footprint, double wa
       // Across the ray: along the edge, and from the hit towards it.
       const Vec3 along = normalized(edge - dot(edge, in) * in), towards = cross(along, in);
       const double up = towards.z > 0 ? 1 : -1, gap = std::abs(dot(hit, towards));
-      const double density = published_scattering(footprint, wavenumber, gap, {dot(out, along), up * dot(out, towards)}) * cosine;
+      const double density =
+          published_scattering(footprint, wavenumber, gap, {dot(out, along), up * dot(out, towards)}) * cosine;
       const double irradiance = before / (s_in * s_in * s_in);  // over that of unit flux per steradian
       sum += irradiance * density / (s_out * s_out) * width * std::cosh(t);
     }

@@ -29,7 +29,8 @@ ReflectionCoefficients half_space_reflection(Complex permittivity, double cos_in
   return interface_reflection(permittivity, cos_incidence, refracted_cosine(permittivity, cos_incidence));
 }
 
-ReflectionCoefficients slab_reflection(Complex permittivity, double thickness, double wavenumber, double cos_incidence) {
+ReflectionCoefficients slab_reflection(Complex permittivity, double thickness, double wavenumber,
+                                       double cos_incidence) {
   GRIMALDI_EXPECT(thickness >= 0 && wavenumber > 0);
   if (cos_incidence == 0) return {-1.0, -1.0};
   if (std::isinf(thickness)) return half_space_reflection(permittivity, cos_incidence);

@@ -5,8 +5,8 @@
 
 namespace grimaldi {
 
-/// Reflection coefficients of the two polarisations. TE (⊥): E perpendicular to the plane of incidence, along s = k × n;
-/// TM (∥): E along s × k before and s × k' after the reflection, so that a perfect conductor has te = −1, tm = +1.
+/// Reflection coefficients of the two polarisations. TE (⊥): E perpendicular to the plane of incidence, along s = k ×
+/// n; TM (∥): E along s × k before and s × k' after the reflection, so that a perfect conductor has te = −1, tm = +1.
 struct ReflectionCoefficients {
   std::complex<double> te, tm;
 };
@@ -23,8 +23,8 @@ ReflectionCoefficients half_space_reflection(std::complex<double> permittivity, 
 ReflectionCoefficients slab_reflection(std::complex<double> permittivity, double thickness, double wavenumber,
                                        double cos_incidence);
 
-/// Pressure reflection factor of a locally reacting, angle-independent wall of absorption coefficient α: √(1 − α), phase 0.
-/// α in 0 … 1.
+/// Pressure reflection factor of a locally reacting, angle-independent wall of absorption coefficient α: √(1 − α),
+/// phase 0. α in 0 … 1.
 double wall_reflection(double absorption);
 
 }  // namespace grimaldi

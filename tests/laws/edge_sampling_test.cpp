@@ -1,4 +1,5 @@
-// The law from which azimuths at an edge are drawn: samples follow it, weights give the power of the edge and stay bounded.
+// The law from which azimuths at an edge are drawn: samples follow it, weights give the power of the edge and stay
+// bounded.
 
 #include "propagation/laws/edge_sampling.h"
 
@@ -18,7 +19,8 @@ namespace {
 
 constexpr std::uint64_t seed = 7;
 
-/// Q(a, x), regularised upper incomplete gamma function: series or continued fraction (Numerical Recipes, 3rd ed., 6.2). Chance of a χ² of 2a degrees above 2x.
+/// Q(a, x), regularised upper incomplete gamma function: series or continued fraction (Numerical Recipes, 3rd
+/// ed., 6.2). Chance of a χ² of 2a degrees above 2x.
 double upper_gamma(double a, double x) {
   const double front = std::exp(-x + a * std::log(x) - std::lgamma(a));
   if (x < a + 1) {
@@ -54,18 +56,21 @@ const Geometry geometries[] = {
 
 class AzimuthSampling : public testing::TestWithParam<Geometry> {
  protected:
-  AzimuthLaw law() const { return {GetParam().sector, GetParam().distance, GetParam().wavelength, GetParam().sin_beta}; }
+  AzimuthLaw law() const {
+    return {GetParam().sector, GetParam().distance, GetParam().wavelength, GetParam().sin_beta};
+  }
 };
 
-// χ² of 200,000 draws in 64 bins of equal probability. The bins' edges come from the density summed over 400,000 steps, which is
-// right to 1e-5 of the whole; the chance of p < 1e-3 in six honest cases is 0.6 %, and the seed is fixed.
+// χ² of 200,000 draws in 64 bins of equal probability. The bins' edges come from the density summed over 400,000 steps,
+// which is right to 1e-5 of the whole; the chance of p < 1e-3 in six honest cases is 0.6 %, and the seed is fixed.
 TEST_P(AzimuthSampling, DrawsFollowTheDensity) {
   const AzimuthLaw law = this->law();
   const double angle = GetParam().sector.exterior_angle;
   constexpr int steps = 400000, bins = 64, draws = 200000;
   std::vector<double> edges;
   std::vector<double> cumulative(steps + 1, 0);
-  for (int i = 0; i < steps; ++i) cumulative[i + 1] = cumulative[i] + law.density((i + 0.5) * angle / steps) * angle / steps;
+  for (int i = 0; i < steps; ++i)
+    cumulative[i + 1] = cumulative[i] + law.density((i + 0.5) * angle / steps) * angle / steps;
   EXPECT_NEAR(cumulative.back(), 1, 2e-5);
   for (int b = 1; b < bins; ++b) {
     const double target = cumulative.back() * b / bins;
@@ -89,8 +94,8 @@ TEST_P(AzimuthSampling, DrawsFollowTheDensity) {
   EXPECT_LT(p, 1 - 1e-3) << GetParam().name << " chi2 " << chi2;
 }
 
-// Weights L|ΣU|²/density against their mean, for second legs from very short to infinite. The uniform quarter and up to eight lobes allow 32 at the
-// boundary of one term; 9 for three terms in phase.
+// Weights L|ΣU|²/density against their mean, for second legs from very short to infinite. The uniform quarter and up to
+// eight lobes allow 32 at the boundary of one term; 9 for three terms in phase.
 TEST_P(AzimuthSampling, WeightsAreBounded) {
   const AzimuthLaw law = this->law();
   const Geometry& g = GetParam();
@@ -112,12 +117,12 @@ TEST_P(AzimuthSampling, WeightsAreBounded) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Edges, AzimuthSampling, testing::ValuesIn(geometries), [](const auto& p) {
-  return "case" + std::to_string(p.index);
-});
+INSTANTIATE_TEST_SUITE_P(Edges, AzimuthSampling, testing::ValuesIn(geometries),
+                         [](const auto& p) { return "case" + std::to_string(p.index); });
 
-// The black edge scatters I r_F sin β/(2π√2) = 0.11254 I r_F per unit length into the shadow, and as much takes part on the lit side; by samples and weights.
-// v(ε = π) = 2828 here, so what the paraxial integral misses is 1/(π v) = 1e-4 of it; four standard errors of 400,000 samples are added.
+// The black edge scatters I r_F sin β/(2π√2) = 0.11254 I r_F per unit length into the shadow, and as much takes part on
+// the lit side; by samples and weights. v(ε = π) = 2828 here, so what the paraxial integral misses is 1/(π v) = 1e-4 of
+// it; four standard errors of 400,000 samples are added.
 TEST(EdgePower, ShadowPowerOfABlackEdge) {
   const double wavelength = 1e-4, distance = 100, sin_beta = 0.9;
   const EdgeSector sector{2 * pi, 1.0, true, false};
@@ -143,13 +148,16 @@ TEST(EdgePower, ShadowPowerOfABlackEdge) {
       const double error = std::sqrt((squares[side] - sum[side] * sum[side]) / draws);
       EXPECT_LT(error, 3e-3 * expected);
       EXPECT_NEAR(sum[side], expected, 4 * error + 2e-4 * expected) << (side ? "shadow" : "lit") << " L/s' = " << share;
-      std::printf("power/(I r_F sin beta): %.6f +- %.6f, %s side, L/s' %.1f (exact %.6f)\n", sum[side] / (sin_beta * first_zone * std::sqrt(share)),
-                  error / (sin_beta * first_zone * std::sqrt(share)), side ? "dark" : "lit", share, 0.5 * boundary_power);
+      std::printf("power/(I r_F sin beta): %.6f +- %.6f, %s side, L/s' %.1f (exact %.6f)\n",
+                  sum[side] / (sin_beta * first_zone * std::sqrt(share)),
+                  error / (sin_beta * first_zone * std::sqrt(share)), side ? "dark" : "lit", share,
+                  0.5 * boundary_power);
     }
   }
 }
 
-// The terms against an independent form: |E(v)| of the knife edge in shadow; sign change at each boundary; the screen's two sides are one mirror.
+// The terms against an independent form: |E(v)| of the knife edge in shadow; sign change at each boundary; the screen's
+// two sides are one mirror.
 TEST(SectorWaves, AreTheTermsOfTheEdge) {
   const EdgeSector screen{2 * pi, 1.0, true, true}, roof{1.5 * pi, 1.0, false, true};
   for (const double phi : {pi + 1.0 + 1e-3, pi + 1.5, 2 * pi - 0.1}) {
@@ -159,7 +167,8 @@ TEST(SectorWaves, AreTheTermsOfTheEdge) {
     EXPECT_EQ(u[2], std::complex<double>(0));
   }
   const auto jump = [](const EdgeSector& sector, double boundary, std::size_t term) {
-    return std::abs(sector_waves(sector, 50, 0.3, 0.8, boundary + 1e-9)[term] - sector_waves(sector, 50, 0.3, 0.8, boundary - 1e-9)[term]);
+    return std::abs(sector_waves(sector, 50, 0.3, 0.8, boundary + 1e-9)[term] -
+                    sector_waves(sector, 50, 0.3, 0.8, boundary - 1e-9)[term]);
   };
   // A jump of 1, less the slope |dU/dε| < 30 times 2e-9.
   EXPECT_NEAR(jump(screen, pi + 1.0, 0), 1, 1e-6);
@@ -167,7 +176,10 @@ TEST(SectorWaves, AreTheTermsOfTheEdge) {
   EXPECT_NEAR(jump(roof, pi - 1.0, 1), 1, 1e-6);
   EXPECT_NEAR(jump(EdgeSector{1.5 * pi, 1.2 * pi, false, true}, 0.8 * pi, 2), 1, 1e-6);
   const EdgeSector behind{2 * pi, 2 * pi - 1.0, true, true};
-  for (const double phi : {0.5, 2.0, 4.0}) EXPECT_NEAR(std::abs(sector_waves(screen, 50, 0.3, 0.8, phi)[1] - sector_waves(behind, 50, 0.3, 0.8, 2 * pi - phi)[1]), 0, 1e-12);
+  for (const double phi : {0.5, 2.0, 4.0})
+    EXPECT_NEAR(
+        std::abs(sector_waves(screen, 50, 0.3, 0.8, phi)[1] - sector_waves(behind, 50, 0.3, 0.8, 2 * pi - phi)[1]), 0,
+        1e-12);
 }
 
 }  // namespace

@@ -112,11 +112,11 @@ TEST(Fermat, MirrorEndsAtItsBox) {
 // Reflections of any order obey the law of reflection, and their length is that of the broken line.
 TEST(Fermat, ManyMirrorsObeyTheLaw) {
   Stage stage;
+  // Floor, two walls and the ceiling of a crooked room.
   const std::vector<Interaction> way{stage.mirror({0, 0, 1}, -20), stage.mirror({1, 0.1, 0.2}, -25),
-                                     stage.mirror({-1, 0.2, 0}, -30), stage.mirror({0.1, 1, 0.1}, -28),
-                                     stage.mirror({0, 0, -1}, -22)};
+                                     stage.mirror({0.1, 1, 0.1}, -28), stage.mirror({0, 0.1, -1}, -22)};
   int found = 0;
-  for (std::uint64_t trial = 0; trial < 200; ++trial) {
+  for (std::uint64_t trial = 0; trial < 3000; ++trial) {
     PathGeometry path;
     if (!stage.solve(random_point(trial, 0, 15), way, random_point(trial, 1, 15), path)) continue;
     ++found;

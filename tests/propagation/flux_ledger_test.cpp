@@ -28,6 +28,7 @@ TEST_P(FluxLedgerOf, Closes) {
   PlanDescription plan = test::plan_for(c.kind, c.frequency, c.transmitter);
   plan.depth = c.depth;
   plan.reflection = c.reflection;
+  if (c.depth > 3) plan.diffraction = false;  // beams from edges carry no flux; deep, they are many
   plan.rays = 1e5;
   plan.receivers = {test::receiver_at(c.transmitter + Vec3{1, 1, 0.5})};
   const FluxLedger flux = test::run(scene, plan).figures.flux;

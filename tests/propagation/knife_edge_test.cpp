@@ -16,7 +16,8 @@ struct Case {
   double tolerance;                  ///< dB
 };
 
-/// The z of a receiver at x = behind whose path over the edge (along y at x = z = 0) from (−before, 0, 0) has v: v = ±2√(δ/λ).
+/// The z of a receiver at x = behind whose path over the edge (along y at x = z = 0) from (−before, 0, 0) has v: v =
+/// ±2√(δ/λ).
 double height_for(double v, const Case& c, double wavelength) {
   const double detour = v * v * wavelength / 4;
   double low = 0, high = c.behind;
@@ -42,8 +43,8 @@ class KnifeEdge : public testing::TestWithParam<Case> {
   }
 };
 
-// Direct and diffracted wave without reflection: a black screen, whose exact field (paraxial) is the Fresnel knife edge.
-// The design promises 0.04 dB for radio at v = 4; half a decibel is what a user is told.
+// Direct and diffracted wave without reflection: a black screen, whose exact field (paraxial) is the Fresnel knife
+// edge. The design promises 0.04 dB for radio at v = 4; half a decibel is what a user is told.
 TEST_P(KnifeEdge, LevelBehindABlackScreen) {
   const Case& c = GetParam();
   const Scene scene = test::built_in("half-plane");
@@ -51,12 +52,14 @@ TEST_P(KnifeEdge, LevelBehindABlackScreen) {
   plan.reflection = false;
   plan.rays = 2e5;
   for (const double v : levels)
-    for (const double sign : {1.0, -1.0}) plan.receivers.push_back(test::receiver_at({c.behind, 0, height_for(sign * v, c, wavelength())}));
+    for (const double sign : {1.0, -1.0})
+      plan.receivers.push_back(test::receiver_at({c.behind, 0, height_for(sign * v, c, wavelength())}));
   const Result result = test::run(scene, plan);
   for (std::size_t i = 0; i < plan.receivers.size(); ++i) {
     const double v = (i % 2 ? -1 : 1) * levels[i / 2];
     const double expected = test::decibel(std::norm(knife_edge(v)));
-    const double level = test::decibel(result.profiles[i].total[0] / free_space(plan.transmitters[0].position, plan.receivers[i].position));
+    const double level = test::decibel(result.profiles[i].total[0] /
+                                       free_space(plan.transmitters[0].position, plan.receivers[i].position));
     RecordProperty(std::string("v") + std::to_string(v), std::to_string(level - expected));
     // On the lit side beyond v = 3 the cross term fades out and with it the fringe: ±1/(√2 π v) of amplitude.
     const double fade = v < -3 ? test::decibel(std::pow(1 + 1 / (std::sqrt(2) * pi * -v), 2)) : 0;
@@ -71,7 +74,8 @@ TEST_P(KnifeEdge, NoJumpAcrossTheShadowBoundary) {
   const Scene scene = test::built_in("half-plane");
   PlanDescription plan = test::plan_for(c.kind, c.frequency, {-c.before, 0, 0});
   plan.rays = 2e5;
-  for (int i = -40; i <= 40; ++i) plan.receivers.push_back(test::receiver_at({c.behind, 0, height_for(0.01 * i + 1e-4, c, wavelength())}));
+  for (int i = -40; i <= 40; ++i)
+    plan.receivers.push_back(test::receiver_at({c.behind, 0, height_for(0.01 * i + 1e-4, c, wavelength())}));
   const Result result = test::run(scene, plan);
   for (std::size_t i = 1; i < plan.receivers.size(); ++i) {
     const double step = test::decibel(result.profiles[i].total[0] / result.profiles[i - 1].total[0]);
@@ -80,8 +84,9 @@ TEST_P(KnifeEdge, NoJumpAcrossTheShadowBoundary) {
   }
 }
 
-// With reflection on, the half-plane is hard or soft. Exact: Macdonald's solution for a point source, its leading term (error of order 1/(kS), 1e-3 here):
-// for source and image, each at distance R from the receiver, S the way over the edge, √2 e^{−jkR} E(v)/√(S(S + R)), v = 2√((S − R)/λ).
+// With reflection on, the half-plane is hard or soft. Exact: Macdonald's solution for a point source, its leading term
+// (error of order 1/(kS), 1e-3 here): for source and image, each at distance R from the receiver, S the way over the
+// edge, √2 e^{−jkR} E(v)/√(S(S + R)), v = 2√((S − R)/λ).
 TEST_P(KnifeEdge, SoftAndHardHalfPlane) {
   const Case& c = GetParam();
   MaterialChoice choice;
@@ -93,7 +98,8 @@ TEST_P(KnifeEdge, SoftAndHardHalfPlane) {
   const Vec3 source{-c.before, 0, 0};
   PlanDescription plan = test::plan_for(c.kind, c.frequency, source);
   plan.rays = 2e5;
-  for (const double v : levels) plan.receivers.push_back(test::receiver_at({c.behind, 0, height_for(v, c, wavelength())}));
+  for (const double v : levels)
+    plan.receivers.push_back(test::receiver_at({c.behind, 0, height_for(v, c, wavelength())}));
   for (const bool soft : {false, true}) {
     if (soft && c.kind == WaveKind::acoustic) continue;
     plan.transmitters[0].antenna.polarisation = soft ? Polarisation::horizontal : Polarisation::vertical;
@@ -103,13 +109,15 @@ TEST_P(KnifeEdge, SoftAndHardHalfPlane) {
       const double over = c.before + norm(receiver), k = 2 * pi / wavelength();
       const auto term = [&](const Vec3& s) {
         const double r = distance(s, receiver);
-        return std::polar(std::sqrt(2 / (over * (over + r))), -k * r) * knife_edge(2 * std::sqrt((over - r) / wavelength()));
+        return std::polar(std::sqrt(2 / (over * (over + r))), -k * r) *
+               knife_edge(2 * std::sqrt((over - r) / wavelength()));
       };
       const auto exact = term(source) + (soft ? -1.0 : 1.0) * term(image);
       const double expected = test::decibel(std::norm(exact) * std::pow(distance(source, receiver), 2));
       const double level = test::decibel(result.profiles[i].total[0] / free_space(source, receiver));
       EXPECT_NEAR(level, expected, 0.5) << c.name << (soft ? " soft" : " hard") << " v = " << levels[i];
-      std::printf("%s %s v %+.2f engine %8.3f exact %8.3f dB\n", c.name, soft ? "soft" : "hard", levels[i], level, expected);
+      std::printf("%s %s v %+.2f engine %8.3f exact %8.3f dB\n", c.name, soft ? "soft" : "hard", levels[i], level,
+                  expected);
     }
   }
 }

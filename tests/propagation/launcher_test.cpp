@@ -100,11 +100,12 @@ TEST(Launcher, DrawsBySeedAndPass) {
   EXPECT_GT(distance(first, Launcher(1, 1, 100).direction(7)), 1e-6);
 }
 
-// The map keeps areas: the image of a small square has the same solid angle everywhere, 4π du dv.
+// Off its folds (|2u − 1| + |2v − 1| = 1, or either 0) the map keeps areas: the image of a small square has the same
+// solid angle everywhere, 4π du dv.
 TEST(Launcher, MapKeepsAreas) {
   constexpr double h = 1e-5;
   for (const double u : {0.07, 0.31, 0.44, 0.63, 0.92})
-    for (const double v : {0.11, 0.27, 0.58, 0.86}) {
+    for (const double v : {0.11, 0.27, 0.59, 0.86}) {
       const Vec3 du = (equal_area_direction(u + h, v) - equal_area_direction(u - h, v)) / (2 * h);
       const Vec3 dv = (equal_area_direction(u, v + h) - equal_area_direction(u, v - h)) / (2 * h);
       EXPECT_NEAR(norm(cross(du, dv)) / (4 * pi), 1, 1e-6) << u << " " << v;  // h² times derivatives of some 100

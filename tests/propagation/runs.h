@@ -12,7 +12,8 @@
 
 namespace grimaldi::test {
 
-inline Scene built_in(const std::string& name, const CanonicalParameters& parameters = {}, const MaterialChoice& choice = {}) {
+inline Scene built_in(const std::string& name, const CanonicalParameters& parameters = {},
+                      const MaterialChoice& choice = {}) {
   Diagnostics diagnostics;
   const SceneDescription description = canonical_scene(name, parameters, diagnostics);
   Scene scene = build_scene(description, choice, diagnostics);
