@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "benchmarks/cities.h"
+#include "benchmarks/stopwatch.h"
 #include "core/blocks.h"
 
 namespace grimaldi {
@@ -35,7 +36,8 @@ std::vector<ShadowRay> edge_to_cell_rays(const City& city, const Plan& plan) {
   return rays;
 }
 
-/// Arguments: city, threads, whether the order is kept.
+/// Arguments: city, threads, whether the order is kept. `rays_per_cpu_s` is by the time of the processors, which other
+/// programs disturb less.
 void shadow_rays(benchmark::State& state) {
   const City* city = city_for(state, state.range(0));
   if (!city) return;
@@ -44,6 +46,7 @@ void shadow_rays(benchmark::State& state) {
   if (!state.range(2)) std::shuffle(rays.begin(), rays.end(), std::mt19937_64(1));
   constexpr std::size_t rays_per_block = 4096;
   std::atomic<std::size_t> visible = 0;
+  const Stopwatch watch;
   for (auto _ : state) {
     visible = 0;
     for_each_block((rays.size() + rays_per_block - 1) / rays_per_block, threads, [&](std::size_t block, unsigned) {
@@ -55,6 +58,7 @@ void shadow_rays(benchmark::State& state) {
     });
   }
   state.counters["rays_per_s"] = benchmark::Counter(double(rays.size()), benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["rays_per_cpu_s"] = double(rays.size()) * double(state.iterations()) / watch.processor();
   state.counters["visible_share"] = double(visible) / double(rays.size());
 }
 

@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
-#include <ctime>
 #include <span>
 #include <vector>
 
 #include "benchmarks/bare_embree.h"
 #include "benchmarks/cities.h"
+#include "benchmarks/stopwatch.h"
 #include "core/blocks.h"
 #include "propagation/discover.h"
 #include "propagation/launcher.h"
@@ -21,17 +20,6 @@ namespace {
 constexpr double rays = 1e6;
 /// Launched beams in a block of work: that of discover().
 constexpr std::uint64_t beams_per_block = 4096;
-
-/// Seconds since it was made: on the wall, and of the processors that this program used.
-class Stopwatch {
- public:
-  double wall() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count(); }
-  double processor() const { return double(std::clock() - processor_) / CLOCKS_PER_SEC; }
-
- private:
-  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
-  std::clock_t processor_ = std::clock();
-};
 
 /// The segments of a run in the order in which one thread walks them.
 struct Record {

@@ -38,14 +38,16 @@ std::vector<std::string> parts_of(const std::string& text) {
   return parts;
 }
 
-/// One message of several that differ in the band and in the value used there: the bands listed, each value with its band.
+/// One message of several that differ in the band and in the value used there: the bands listed, each value with its
+/// band.
 Diagnostic joined(const std::vector<BandMessage>& messages) {
   Diagnostic one = messages.front().message;
   if (messages.size() == 1) return one;
   std::string bands;
   for (const BandMessage& each : messages) bands += (bands.empty() ? "" : ", ") + each.band;
   const std::string& first = messages.front().band;
-  if (const auto place = one.problem.find(first); place != std::string::npos) one.problem.replace(place, first.size(), bands);
+  if (const auto place = one.problem.find(first); place != std::string::npos)
+    one.problem.replace(place, first.size(), bands);
   std::vector<std::string> parts = parts_of(one.suggestion);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const std::string common = without_band(parts[i], first);
@@ -57,7 +59,8 @@ Diagnostic joined(const std::vector<BandMessage>& messages) {
       same = same && text == common;
       // "used: a at 1 GHz, used: b at 2 GHz" says "used:" once.
       const std::size_t colon = list.empty() ? std::string::npos : text.find(": ");
-      list += (list.empty() ? "" : ", ") + (colon == std::string::npos ? text : text.substr(colon + 2)) + " at " + each.band;
+      list += (list.empty() ? "" : ", ") + (colon == std::string::npos ? text : text.substr(colon + 2)) + " at " +
+              each.band;
     }
     parts[i] = same ? common : list;
   }
@@ -95,7 +98,8 @@ std::vector<FaceMaterial> face_materials(const Plan& plan, const Scene& scene, D
   return faces;
 }
 
-GridLayout grid_layout(const CoverageRequest& coverage, const Scene& scene, std::size_t bytes_per_cell, Diagnostics& diagnostics) {
+GridLayout grid_layout(const CoverageRequest& coverage, const Scene& scene, std::size_t bytes_per_cell,
+                       Diagnostics& diagnostics) {
   const std::array<double, 4> area =
       coverage.area.value_or(std::array{scene.low.x, scene.low.y, scene.high.x, scene.high.y});
   const double width = area[2] - area[0], height = area[3] - area[1];
@@ -113,9 +117,10 @@ GridLayout grid_layout(const CoverageRequest& coverage, const Scene& scene, std:
   if (!(needed <= limit)) {
     // The product of the sides and of the cells may be no double any more.
     const double fitting = std::sqrt(width) * std::sqrt(height) * std::sqrt(double(bytes_per_cell) / limit);
-    diagnostics.error("", 0, "coverage.cell_size", "the grid cannot fit in memory",
-                      fmt::format("{:.7g} × {:.7g} cells need {:.3g} GB, {:.3g} GB may be used", nx, ny, needed / 1e9, limit / 1e9),
-                      fmt::format("use cells of {:.3g} m or more, or a smaller coverage.area", fitting * 1.01));
+    diagnostics.error(
+        "", 0, "coverage.cell_size", "the grid cannot fit in memory",
+        fmt::format("{:.7g} × {:.7g} cells need {:.3g} GB, {:.3g} GB may be used", nx, ny, needed / 1e9, limit / 1e9),
+        fmt::format("use cells of {:.3g} m or more, or a smaller coverage.area", fitting * 1.01));
     return grid;
   }
   grid.nx = static_cast<std::size_t>(nx);
@@ -129,9 +134,7 @@ std::string point_text(const Vec3& p) { return fmt::format("({:g}, {:g}, {:g})",
 
 }  // namespace
 
-double memory_limit() {
-  return 0.75 * double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
-}
+double memory_limit() { return 0.75 * double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE)); }
 
 Plan make_plan(const PlanDescription& description, const Scene& scene, const Tracer& tracer, Diagnostics& diagnostics) {
   Plan plan;
@@ -142,12 +145,14 @@ Plan make_plan(const PlanDescription& description, const Scene& scene, const Tra
   std::sort(plan.frequency.begin(), plan.frequency.end());
   for (const double f : plan.frequency) {
     plan.wavenumber.push_back(2 * pi * f / plan.speed);
-    plan.attenuation.push_back(
-        description.kind == WaveKind::acoustic ? sound_attenuation(description.air, f) / (20 * std::log10(std::exp(1.0))) : 0);
+    plan.attenuation.push_back(description.kind == WaveKind::acoustic
+                                   ? sound_attenuation(description.air, f) / (20 * std::log10(std::exp(1.0)))
+                                   : 0);
   }
   plan.materials = face_materials(plan, scene, diagnostics);
   if (description.coverage && std::isfinite(description.coverage->cell_size)) {
-    const double sub_points = std::pow(sub_points_a_side(description.rays), 2) + std::pow(edge_sub_points_a_side(description.rays), 2);
+    const double sub_points =
+        std::pow(sub_points_a_side(description.rays), 2) + std::pow(edge_sub_points_a_side(description.rays), 2);
     // Layers, gain, error, bias and delays per transmitter and band; the sub-points; the walk's bookkeeping.
     const std::size_t bytes = description.transmitters.size() * plan.bands() * (mechanism_count + 5) * sizeof(double) +
                               static_cast<std::size_t>(sub_points) * sizeof(SubPoint) + 64;
@@ -157,22 +162,26 @@ Plan make_plan(const PlanDescription& description, const Scene& scene, const Tra
     if (!is_finite(transmitter.position)) continue;  // its fault has been told
     const std::string option = "transmitter." + transmitter.name + ".position";
     if (tracer.inside_solid(transmitter.position))
-      diagnostics.error(file, 0, option, "the transmitter is inside a solid",
-                        fmt::format("an odd number of surfaces lies straight above {}", point_text(transmitter.position)),
-                        "move it out of the building, for instance above the roof");
+      diagnostics.error(
+          file, 0, option, "the transmitter is inside a solid",
+          fmt::format("an odd number of surfaces lies straight above {}", point_text(transmitter.position)),
+          "move it out of the building, for instance above the roof");
     else if (transmitter.position.z < scene.ground)
-      diagnostics.warning(file, 0, option, "the transmitter is below the ground",
-                          fmt::format("z = {:g} m, the lowest surface is at {:g} m", transmitter.position.z, scene.ground));
+      diagnostics.warning(
+          file, 0, option, "the transmitter is below the ground",
+          fmt::format("z = {:g} m, the lowest surface is at {:g} m", transmitter.position.z, scene.ground));
   }
   for (const Receiver& receiver : description.receivers) {
     if (!is_finite(receiver.position)) continue;
     const std::string option = "receiver." + receiver.name + ".position";
     if (tracer.inside_solid(receiver.position))
-      diagnostics.warning(file, 0, option, "the receiver is inside a solid",
-                          fmt::format("an odd number of surfaces lies straight above {}", point_text(receiver.position)));
+      diagnostics.warning(
+          file, 0, option, "the receiver is inside a solid",
+          fmt::format("an odd number of surfaces lies straight above {}", point_text(receiver.position)));
     else if (receiver.position.z < scene.ground)
-      diagnostics.warning(file, 0, option, "the receiver is below the ground",
-                          fmt::format("z = {:g} m, the lowest surface is at {:g} m", receiver.position.z, scene.ground));
+      diagnostics.warning(
+          file, 0, option, "the receiver is below the ground",
+          fmt::format("z = {:g} m, the lowest surface is at {:g} m", receiver.position.z, scene.ground));
   }
   return plan;
 }

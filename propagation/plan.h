@@ -33,21 +33,22 @@ struct GridLayout {
 };
 
 struct Plan {
-  PlanDescription request;               ///< what was asked, in SI units
-  double speed = 0;                      ///< of the wave, m/s
-  std::vector<double> frequency;         ///< Hz, ascending
-  std::vector<double> wavenumber;        ///< rad/m, per band
-  std::vector<double> attenuation;       ///< of the air, Np/m of amplitude, per band (0 for radio)
-  std::vector<FaceMaterial> materials;   ///< per material of the scene
-  GridLayout grid;                       ///< empty (nx = 0) without coverage
+  PlanDescription request;              ///< what was asked, in SI units
+  double speed = 0;                     ///< of the wave, m/s
+  std::vector<double> frequency;        ///< Hz, ascending
+  std::vector<double> wavenumber;       ///< rad/m, per band
+  std::vector<double> attenuation;      ///< of the air, Np/m of amplitude, per band (0 for radio)
+  std::vector<FaceMaterial> materials;  ///< per material of the scene
+  GridLayout grid;                      ///< empty (nx = 0) without coverage
   std::size_t bands() const { return frequency.size(); }
   std::size_t polarisations() const { return request.kind == WaveKind::radio ? 2 : 1; }
 };
 
-/// Checks `description` against `scene` and works out the above. Errors to `diagnostics`: a transmitter inside a solid, a material that knows
-/// nothing of a frequency, a grid that cannot fit in memory (more than `memory_limit` bytes for all results; says how many cells and what cell size would fit),
-/// an empty grid. It may be held against a description with faults, to tell those of both at once: what is not finite is passed over. Warnings, one
-/// for all bands of a material: a receiver inside a solid, P.2040 outside its range, a transmitter or receiver below the ground.
+/// Checks `description` against `scene` and works out the above. Errors to `diagnostics`: a transmitter inside a solid,
+/// a material that knows nothing of a frequency, a grid that cannot fit in memory (more than `memory_limit` bytes for
+/// all results; says how many cells and what cell size would fit), an empty grid. It may be held against a description
+/// with faults, to tell those of both at once: what is not finite is passed over. Warnings, one for all bands of a
+/// material: a receiver inside a solid, P.2040 outside its range, a transmitter or receiver below the ground.
 Plan make_plan(const PlanDescription& description, const Scene& scene, const Tracer& tracer, Diagnostics& diagnostics);
 
 /// Three quarters of the machine's physical memory, bytes.

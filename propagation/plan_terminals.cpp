@@ -13,6 +13,9 @@ namespace grimaldi {
 namespace {
 
 constexpr const char* a_position = "east, north, up in metres";
+// Farther than twice round the Earth is a slip of the pen, and single precision, which rays are traced in, ends at
+// 1e38.
+constexpr double farthest = 1e8;  // m
 
 // Sets `position`, to NaN after a fault: no place of its own is then judged against the scene.
 void read_position(ScenarioReader& reader, const ScenarioNode& table, const char* option, Vec3& position) {
@@ -25,7 +28,7 @@ void read_position(ScenarioReader& reader, const ScenarioNode& table, const char
                      fmt::format("set position = [8.5, 21.0, 27.0], or give {}", option));
     return;
   }
-  const std::vector<double> values = reader.numbers(*node, Dimension::length, 3, a_position);
+  const std::vector<double> values = reader.numbers(*node, Dimension::length, 3, a_position, {-farthest, farthest});
   if (values.size() == 3) position = {values[0], values[1], values[2]};
 }
 
@@ -150,10 +153,11 @@ void read_coverage_section(ScenarioReader& reader, const ScenarioNode& root, Pla
   reader.check_keys(*section, {"height", "cell_size", "area", "polarisation"});
   CoverageRequest coverage;
   const std::size_t faults_before = reader.error_count();
-  reader.read(*section, "height", Dimension::length, positive, coverage.height);
-  reader.read(*section, "cell_size", Dimension::length, positive, coverage.cell_size);
+  reader.read(*section, "height", Dimension::length, {0, farthest, true}, coverage.height);
+  reader.read(*section, "cell_size", Dimension::length, {0, farthest, true}, coverage.cell_size);
   if (const ScenarioNode* node = section->find("area")) {
-    const auto values = reader.numbers(*node, Dimension::length, 4, "xmin, ymin, xmax, ymax in metres");
+    const auto values =
+        reader.numbers(*node, Dimension::length, 4, "xmin, ymin, xmax, ymax in metres", {-farthest, farthest});
     if (values.size() == 4) {
       if (values[0] >= values[2] || values[1] >= values[3]) {
         reader.fault(*node, "an empty area",

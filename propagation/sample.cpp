@@ -4,16 +4,16 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <span>
 
 #include "core/blocks.h"
 #include "core/constants.h"
 #include "core/random.h"
 #include "propagation/antenna.h"
 #include "propagation/face_reflection.h"
-#include "propagation/fermat.h"
 #include "propagation/laws/edge_sampling.h"
 #include "propagation/laws/free_space_diffraction.h"
+#include "propagation/laws/published_diffraction.h"
+#include "propagation/lit_edges.h"
 
 namespace grimaldi {
 namespace {
@@ -23,32 +23,24 @@ constexpr std::uint64_t block_size = 4096, blocks_at_once = 256;
 /// Points of an edge's line further beyond its end than this v_V are not sampled (nor connected).
 constexpr double end_parameter_limit = 3;
 
-/// The transmitter or its image in one patch after the other.
-struct Lamp {
-  Vec3 position;
-  std::vector<std::uint32_t> patches;  ///< in the order of the wave
-  std::vector<Vec3> images;            ///< transmitter, its image in the first patch …; the last is `position`
-};
-
-/// One wedge as one lamp shines on it.
-struct Lit {
-  std::uint32_t lamp, wedge;
-  EdgeSector sector;
-  double axial, radial;         ///< of the lamp in the wedge's frame, m from its start
-  double angle_from, angle_to;  ///< atan((t − axial)/radial) at the ends of the sampled part
-  double cumulative;            ///< probability of this and all before
-  double probability;
-};
-
 struct Crossing {
   std::uint32_t cell;
   double gain;
 };
 
-/// Power that one sample of a block or a whole block brings to a cell.
+/// Power that a sample, or all samples of a block, bring to a cell.
 struct Tally {
   std::uint32_t cell, hits;
   double sum, squares;
+};
+
+/// What leaves an edge.
+struct Beam {
+  Vec3 origin, direction;
+  std::uint32_t leave0, leave1;
+  double power;  ///< over the transmitter's, over the density of its draw
+  double s_in;   ///< length of its way so far, m
+  int reflections;
 };
 
 class EdgeSampler {
@@ -64,139 +56,109 @@ class EdgeSampler {
         band_(band),
         wavelength_(2 * pi / plan.wavenumber[band]),
         classes_(classes),
-        radio_(plan.request.kind == WaveKind::radio) {
-    if (!plan.request.diffraction || plan.request.max_diffractions < 1 || plan.request.depth < 1) return;
-    add_lamps();
-    add_wedges();
-  }
+        radio_(plan.request.kind == WaveKind::radio),
+        published_(plan.request.diffraction_model == DiffractionModel::fsd_published),
+        lit_(scene, plan, transmitter_, wavelength_, before(plan, classes), published_ ? 0 : end_parameter_limit) {}
 
   bool empty() const { return lit_.empty(); }
 
   /// Adds the crossings of sample `index`, one for each cell.
   void sample(std::uint64_t index, std::vector<Crossing>& crossings) const {
     const auto u = uniform4(plan_.request.seed, sample_stream, index, 0);
-    const auto found =
-        std::lower_bound(lit_.begin(), lit_.end(), u[0], [](const Lit& a, double x) { return a.cumulative < x; });
-    const Lit& lit = found == lit_.end() ? lit_.back() : *found;
-    const Wedge& wedge = scene_.wedges.wedges[lit.wedge];
-    const Lamp& lamp = lamps_[lit.lamp];
-    const double angle = lit.angle_from + u[1] * (lit.angle_to - lit.angle_from);
-    Start start{lit, wedge, {}};
-    start.along = lit.axial + lit.radial * std::tan(angle);
-    start.point = wedge.point(start.along);
-    start.s_in = lit.radial / std::cos(angle);
-    start.sin_beta = std::cos(angle);
-    const AzimuthLaw law(lit.sector, start.s_in, wavelength_, start.sin_beta);
-    start.phi = law.draw(u[2], u[3]);
-    // Density of the point along the edge: dθ/dt = ρ/s'².
-    const double density = lit.probability * lit.radial / (start.s_in * start.s_in * (lit.angle_to - lit.angle_from)) *
-                           law.density(start.phi);
-    const double arrived = arriving_power(lamp, wedge, start);
+    const LitEdge& lit = lit_.choose(u[0]);
+    const EdgePoint start = lit_.draw_point(lit, u[1]);
+    const double arrived = arriving_power(lit, start) / (4 * pi * start.s_in * start.s_in * double(samples_));
     if (arrived == 0) return;
-    start.weight =
-        arrived / (4 * pi * start.s_in * start.s_in) * start.sin_beta * start.sin_beta / (density * double(samples_));
-    follow(lamp, start, crossings);
+    if (published_)
+      sample_published(index, lit, start, arrived, u, crossings);
+    else
+      sample_keller(lit, start, arrived, u, crossings);
   }
 
  private:
-  struct Start {
-    const Lit& lit;
-    const Wedge& wedge;
-    Vec3 point;
-    double along = 0, s_in = 0, sin_beta = 1, phi = 0, weight = 0;
-  };
-
-  void add_lamps() {
-    lamps_.push_back({transmitter_.position, {}, {transmitter_.position}});
-    const int before = plan_.request.reflection
-                           ? std::min({classes_.before, plan_.request.max_reflections, plan_.request.depth - 1})
-                           : 0;
-    std::size_t first = 0;
-    for (int order = 0; order < before; ++order) {
-      const std::size_t last = lamps_.size();
-      for (std::size_t l = first; l < last; ++l)
-        for (std::uint32_t p = 0; p < scene_.patches.patches.size(); ++p) {
-          if (!lamps_[l].patches.empty() && lamps_[l].patches.back() == p) continue;
-          Lamp next = lamps_[l];
-          next.position = mirrored(next.position, scene_.patches.patches[p]);
-          next.patches.push_back(p);
-          next.images.push_back(next.position);
-          lamps_.push_back(std::move(next));
-        }
-      first = last;
-    }
+  static int before(const Plan& plan, const SampledClasses& classes) {
+    return plan.request.reflection ? std::min({classes.before, plan.request.max_reflections, plan.request.depth - 1})
+                                   : 0;
   }
 
-  void add_wedges() {
-    double sum = 0;
-    for (std::uint32_t l = 0; l < lamps_.size(); ++l)
-      for (std::uint32_t w = 0; w < scene_.wedges.wedges.size(); ++w) {
-        Lit lit{};
-        lit.lamp = l;
-        lit.wedge = w;
-        if (!lights(lamps_[l], scene_.wedges.wedges[w], lit)) continue;
-        // Power of the edge: ∫ I sin β √(λ s') dt = √λ/4π ∫ dθ/√s' ≤ … (θ₁ − θ₀)/√min s'.
-        const double nearest = lit.angle_from > 0 ? lit.radial / std::cos(lit.angle_from)
-                               : lit.angle_to < 0 ? lit.radial / std::cos(lit.angle_to)
-                                                  : lit.radial;
-        lit.probability = (lit.angle_to - lit.angle_from) / std::sqrt(nearest);
-        lit.cumulative = sum += lit.probability;
-        lit_.push_back(lit);
-      }
-    for (Lit& lit : lit_) {
-      lit.probability /= sum;
-      lit.cumulative /= sum;
-    }
-  }
+  const Wedge& wedge_of(const LitEdge& lit) const { return scene_.wedges.wedges[lit.wedge]; }
 
-  bool lights(const Lamp& lamp, const Wedge& wedge, Lit& lit) const {
-    if (!lamp.patches.empty()) {
-      const std::uint32_t last = lamp.patches.back();
-      if (last == wedge.patch0 || last == wedge.patchn) return false;
-      // Some of the edge lies before the last mirror: on the side away from the image.
-      const Patch& patch = scene_.patches.patches[last];
-      const double image = dot(patch.normal, lamp.position) - patch.offset;
-      const double ends[2] = {dot(patch.normal, wedge.start) - patch.offset,
-                              dot(patch.normal, wedge.end()) - patch.offset};
-      if (!(image * ends[0] < 0 || image * ends[1] < 0)) return false;
-    }
-    const Vec3 way = lamp.position - wedge.start;
-    lit.axial = dot(way, wedge.direction);
-    const Vec3 across = way - lit.axial * wedge.direction;
-    lit.radial = norm(across);
-    if (lit.radial < 1e-6) return false;
-    constexpr double rounding = 1e-9;
-    double phi = std::atan2(dot(across, wedge.normal0), dot(across, wedge.along0));
-    if (phi < -rounding) phi += 2 * pi;
-    if (phi > wedge.exterior_angle + rounding) return false;
-    lit.sector = {wedge.exterior_angle, std::clamp(phi, 0.0, wedge.exterior_angle), wedge.free_rim,
-                  plan_.request.reflection};
-    lit.angle_from = std::atan((-beyond_end(lit.axial, lit.radial) - lit.axial) / lit.radial);
-    lit.angle_to =
-        std::atan((wedge.length + beyond_end(wedge.length - lit.axial, lit.radial) - lit.axial) / lit.radial);
-    return true;
-  }
-
-  /// Length beyond an end, `towards` m along the edge from the source's foot to it, up to which v_V < 3 for a receiver
-  /// at any distance: the detour over the end is least for the farthest one, |SV| − |SQ| + a cos β; it grows with a. At
-  /// most 10 |SV|.
-  double beyond_end(double towards, double radial) const {
-    const double most = end_parameter_limit * end_parameter_limit * wavelength_ / 4;
-    const double to_end = std::hypot(towards, radial);
-    const auto detour = [&](double a) {
-      const double s = std::hypot(towards + a, radial);
-      return to_end - s + a * (towards + a) / s;
+  /// `arrived` = irradiance at the point over the number of samples, 1/m².
+  void sample_keller(const LitEdge& lit, const EdgePoint& start, double arrived, const std::array<double, 4>& u,
+                     std::vector<Crossing>& crossings) const {
+    const Wedge& wedge = wedge_of(lit);
+    const AzimuthLaw law(lit.sector, start.s_in, wavelength_, start.sin_beta);
+    const double phi = law.draw(u[2], u[3]);
+    const double cos_beta = (start.along - lit.axial) / start.s_in;
+    const Vec3 direction = normalized(cos_beta * wedge.direction +
+                                      start.sin_beta * (std::cos(phi) * wedge.along0 + std::sin(phi) * wedge.normal0));
+    const double power = arrived * start.sin_beta * start.sin_beta / (start.density * law.density(phi));
+    const Vec3& source = lit_.lamp(lit).position;
+    const auto law_at = [&](double s_out) {
+      const double effective = s_out * start.s_in / (s_out + start.s_in);
+      return effective * wave_power(lit, start, phi, effective) *
+             std::norm(end_waves(source, wedge, start, start.point + s_out * direction, s_out));
     };
-    double low = 0, high = 10 * to_end;
-    if (detour(high) < most) return high;
-    while (high - low > 1e-3 * high) (detour(0.5 * (low + high)) < most ? low : high) = 0.5 * (low + high);
-    return high;
+    follow({outside_of_edge(tracer_, wedge, start.point), direction, wedge.patch0, wedge.patchn, power, start.s_in,
+            static_cast<int>(lit_.lamp(lit).patches.size())},
+           law_at, crossings);
+  }
+
+  void sample_published(std::uint64_t index, const LitEdge& lit, const EdgePoint& start, double arrived,
+                        const std::array<double, 4>& u, std::vector<Crossing>& crossings) const {
+    const Wedge& wedge = wedge_of(lit);
+    const double angle = wedge.exterior_angle;
+    const bool lit0 = lit.sector.phi_in < pi, litn = angle - lit.sector.phi_in < pi;
+    if (lit0 == litn) return;  // no silhouette
+    const auto w = uniform4(plan_.request.seed, sample_stream, index, 1);
+    const PublishedFootprint footprint{published_sigma_wavelengths * wavelength_};
+    // A hit beside the edge, on the side of the face that the wave meets.
+    const Lamp& lamp = lit_.lamp(lit);
+    const Vec3 face = lit0 ? wedge.along0 : std::cos(angle) * wedge.along0 + std::sin(angle) * wedge.normal0;
+    Vec3 aside = normalized(cross(wedge.direction, start.point - lamp.position));
+    if (dot(aside, face) < 0) aside = -aside;
+    const double offset = footprint.sigma * std::sqrt(-2 * std::log(w[0])) * std::abs(std::cos(2 * pi * w[1]));
+    const double offset_density = 2 / (std::sqrt(2 * pi) * footprint.sigma) *
+                                  std::exp(-0.5 * offset * offset / (footprint.sigma * footprint.sigma));
+    const Vec3 beside = start.point + offset * aside;
+    const double length = distance(beside, lamp.position);
+    const Vec3 in = (beside - lamp.position) / length;
+    double walked = 0;  // to the last mirror
+    if (!lamp.patches.empty()) {
+      const Patch& patch = scene_.patches.patches[lamp.patches.back()];
+      walked = (patch.offset - dot(patch.normal, lamp.position)) / dot(patch.normal, in);
+    }
+    const Hit hit =
+        tracer_.nearest(lamp.position + walked * in, in, lamp.patches.empty() ? no_index : lamp.patches.back());
+    if (hit.triangle == no_index) return;
+    const std::uint32_t patch = scene_.patches.triangle_patch[hit.triangle];
+    if (patch != wedge.patch0 && patch != wedge.patchn) return;
+    const Vec3 along = normalized(wedge.direction - dot(wedge.direction, in) * in);
+    Vec3 towards = cross(along, in);
+    if (dot(towards, start.point - beside) < 0) towards = -towards;
+    const PublishedScattering scattering(footprint, plan_.wavenumber[band_], dot(towards, start.point - beside),
+                                         dot(wedge.start - beside, along), dot(wedge.end() - beside, along));
+    const PlanePoint xi = scattering.draw(u[2], u[3], w[2]);
+    const double forward = 1 - xi[0] * xi[0] - xi[1] * xi[1];
+    if (forward <= 0) return;
+    // Flux through the strip of points beside the edge, dt × d offset, against that at the edge.
+    const double obliquity = std::abs(dot(in, cross(wedge.direction, aside)));
+    const double flux = arrived * obliquity * start.s_in * start.s_in / (length * length);
+    const double power = flux * scattering(xi) / (start.density * offset_density * scattering.density(xi));
+    const double whole = walked + hit.distance;
+    follow(
+        {wedge.free_rim ? lamp.position + whole * in : outside_of_edge(tracer_, wedge, start.point),
+         normalized(xi[0] * along + xi[1] * towards + std::sqrt(forward) * in), wedge.patch0, wedge.patchn, power,
+         wedge.free_rim ? whole : start.s_in, static_cast<int>(lamp.patches.size())},
+        [](double) { return 1.0; }, crossings);
   }
 
   /// Antenna gain times reflectances of the way from the transmitter to the edge; 0 if it is blocked. Points beyond an
   /// end are seen where the end is.
-  double arriving_power(const Lamp& lamp, const Wedge& wedge, const Start& start) const {
-    Vec3 point = outside(wedge, wedge.point(std::clamp(start.along, 0.0, wedge.length)));
+  double arriving_power(const LitEdge& lit, const EdgePoint& start) const {
+    const Wedge& wedge = wedge_of(lit);
+    const Lamp& lamp = lit_.lamp(lit);
+    Vec3 point = outside_of_edge(tracer_, wedge, wedge.point(std::clamp(start.along, 0.0, wedge.length)));
     double power = 1;
     std::uint32_t leave0 = wedge.patch0, leave1 = wedge.patchn;
     for (std::size_t i = lamp.patches.size(); i-- > 0;) {
@@ -215,37 +177,30 @@ class EdgeSampler {
                   : power;
   }
 
-  Vec3 outside(const Wedge& wedge, const Vec3& point) const {
-    const double half = 0.5 * wedge.exterior_angle;
-    return point + 3 * tracer_.surface_gap() * (std::cos(half) * wedge.along0 + std::sin(half) * wedge.normal0);
-  }
-
   double reflectance(std::uint32_t material, double cosine) const {
     const ReflectionCoefficients r = face_reflection(plan_, material, band_, std::min(1.0, cosine));
     return 0.5 * (std::norm(r.te) + std::norm(r.tm));
   }
 
-  void follow(const Lamp& lamp, const Start& start, std::vector<Crossing>& crossings) const {
-    const Wedge& wedge = start.wedge;
-    const double cos_beta = (start.along - start.lit.axial) / start.s_in;
-    const Vec3 unfolded =
-        normalized(cos_beta * wedge.direction +
-                   start.sin_beta * (std::cos(start.phi) * wedge.along0 + std::sin(start.phi) * wedge.normal0));
-    const int before = static_cast<int>(lamp.patches.size());
-    const int after =
-        !plan_.request.reflection
-            ? 0
-            : std::min({classes_.after, plan_.request.max_reflections - before, plan_.request.depth - 1 - before});
-    Vec3 origin = outside(wedge, start.point), direction = unfolded;
-    std::uint32_t leave0 = wedge.patch0, leave1 = wedge.patchn;
-    double walked = 0, power = start.weight;
+  /// Walks a beam and counts it where it crosses the grid's plane; `law_at` = what depends on the unfolded length from
+  /// the edge.
+  template <class Law>
+  void follow(const Beam& beam, const Law& law_at, std::vector<Crossing>& crossings) const {
+    const PlanDescription& request = plan_.request;
+    const int after = request.reflection ? std::min({classes_.after, request.max_reflections - beam.reflections,
+                                                     request.depth - 1 - beam.reflections})
+                                         : 0;
+    Vec3 origin = beam.origin, direction = beam.direction;
+    std::uint32_t leave0 = beam.leave0, leave1 = beam.leave1;
+    double walked = 0, power = beam.power;
     for (int reflections = 0;; ++reflections) {
       const Hit hit = tracer_.nearest(origin, direction, leave0, leave1);
-      const double rise = grid_.layout.z - origin.z;
-      if (rise * direction.z > 0) {
-        const double t = rise / direction.z;
-        if (hit.triangle == no_index || t < hit.distance)
-          cross(lamp, start, unfolded, origin + t * direction, walked + t, power / std::abs(direction.z), crossings);
+      const double rise = grid_.layout.z - origin.z, t = rise / direction.z;
+      if (rise * direction.z > 0 && (hit.triangle == no_index || t < hit.distance)) {
+        const Vec3 point = origin + t * direction;
+        const double air = std::exp(-2 * plan_.attenuation[band_] * (beam.s_in + walked + t));
+        count(
+            point, power * air / std::abs(direction.z), [&] { return law_at(walked + t); }, crossings);
       }
       if (hit.triangle == no_index || reflections >= after) return;
       const std::uint32_t patch_index = scene_.patches.triangle_patch[hit.triangle];
@@ -261,19 +216,16 @@ class EdgeSampler {
     }
   }
 
-  void cross(const Lamp& lamp, const Start& start, const Vec3& unfolded, const Vec3& point, double s_out, double power,
-             std::vector<Crossing>& crossings) const {
+  template <class Law>
+  void count(const Vec3& point, double power, const Law& law, std::vector<Crossing>& crossings) const {
     const GridLayout& layout = grid_.layout;
     const double x = (point.x - layout.x0) / layout.cell, y = (point.y - layout.y0) / layout.cell;
     if (!(x >= 0 && y >= 0 && x < double(layout.nx) && y < double(layout.ny))) return;
     const auto cell = static_cast<std::uint32_t>(std::size_t(y) * layout.nx + std::size_t(x));
     const double area = layout.cell * layout.cell * (1 - grid_.inside_fraction[cell]);
-    if (area <= 0 || s_out <= 0) return;
-    const double effective = s_out * start.s_in / (s_out + start.s_in);
-    const double ends = std::norm(end_waves(lamp.position, start, start.point + s_out * unfolded, s_out));
-    const double air = std::exp(-2 * plan_.attenuation[band_] * (start.s_in + s_out));
+    if (area <= 0) return;
     const double unit = radio_ ? wavelength_ * wavelength_ / (4 * pi) : 1;
-    const double gain = power * effective * wave_power(start, effective) * ends * air * unit / area;
+    const double gain = power * law() * unit / area;
     if (gain == 0) return;
     for (Crossing& crossing : crossings)
       if (crossing.cell == cell) {
@@ -284,9 +236,10 @@ class EdgeSampler {
   }
 
   /// |Σ r U|², the mean of both polarisations.
-  double wave_power(const Start& start, double effective) const {
-    const auto waves = sector_waves(start.lit.sector, effective, wavelength_, start.sin_beta, start.phi);
-    if (!start.lit.sector.faces) return std::norm(waves[0]);
+  double wave_power(const LitEdge& lit, const EdgePoint& start, double phi, double effective) const {
+    const Wedge& wedge = wedge_of(lit);
+    const auto waves = sector_waves(lit.sector, effective, wavelength_, start.sin_beta, phi);
+    if (!lit.sector.faces) return std::norm(waves[0]);
     std::complex<double> te = waves[0], tm = waves[0];
     const auto add = [&](std::complex<double> wave, std::uint32_t material, double azimuth_in, double azimuth_out) {
       for (const double azimuth : {azimuth_in, azimuth_out}) {
@@ -297,16 +250,16 @@ class EdgeSampler {
         tm += 0.5 * r.tm * wave;
       }
     };
-    const EdgeSector& sector = start.lit.sector;
-    add(waves[1], start.wedge.material0, sector.phi_in, start.phi);
+    const EdgeSector& sector = lit.sector;
+    add(waves[1], wedge.material0, sector.phi_in, phi);
     if (!sector.free_rim)
-      add(waves[2], start.wedge.materialn, sector.exterior_angle - sector.phi_in, sector.exterior_angle - start.phi);
+      add(waves[2], wedge.materialn, sector.exterior_angle - sector.phi_in, sector.exterior_angle - phi);
     return 0.5 * (std::norm(te) + std::norm(tm));
   }
 
   /// T: whether the point lies on the edge, and the waves of its ends towards the (unfolded) receiver.
-  std::complex<double> end_waves(const Vec3& source, const Start& start, const Vec3& receiver, double s_out) const {
-    const Wedge& wedge = start.wedge;
+  std::complex<double> end_waves(const Vec3& source, const Wedge& wedge, const EdgePoint& start, const Vec3& receiver,
+                                 double s_out) const {
     std::complex<double> weight = start.along >= 0 && start.along <= wedge.length ? 1 : 0;
     for (const bool last : {false, true}) {
       const Vec3 end = last ? wedge.end() : wedge.start;
@@ -328,9 +281,8 @@ class EdgeSampler {
   const std::size_t band_;
   const double wavelength_;
   const SampledClasses classes_;
-  const bool radio_;
-  std::vector<Lamp> lamps_;
-  std::vector<Lit> lit_;
+  const bool radio_, published_;
+  const LitEdges lit_;
 };
 
 /// Samples first … last−1, one tally for each cell met, sorted by cell.
@@ -366,8 +318,10 @@ SampledLayer sample_diffraction(const Scene& scene, const Tracer& tracer, const 
   const std::size_t cells = grid.layout.size();
   SampledLayer layer{std::vector<double>(cells, 0), std::vector<double>(cells, 0),
                      std::vector<std::uint32_t>(cells, 0)};
+  const PlanDescription& request = plan.request;
+  const bool asked = request.diffraction && request.max_diffractions > 0 && request.depth > 0;
   const EdgeSampler sampler(scene, tracer, plan, transmitter, grid, samples, band, classes);
-  const std::uint64_t blocks = sampler.empty() ? 0 : (samples + block_size - 1) / block_size;
+  const std::uint64_t blocks = !asked || sampler.empty() ? 0 : (samples + block_size - 1) / block_size;
   std::vector<std::vector<Tally>> tallies(blocks_at_once);
   for (std::uint64_t begin = 0; begin < blocks; begin += blocks_at_once) {
     const std::uint64_t count = std::min(blocks_at_once, blocks - begin);

@@ -142,7 +142,7 @@ std::vector<double> ScenarioReader::numbers(const ScenarioNode& node, Dimension 
 }
 
 std::vector<double> ScenarioReader::numbers(const ScenarioNode& node, Dimension dimension, std::size_t count,
-                                            const std::string& what) {
+                                            const std::string& what, const NumberRange& range) {
   if (node.kind != Kind::list) {
     fault(node, "wrong kind of value",
           fmt::format("a list of {} numbers ({}) is needed, this is {}", count, what, describe(node.kind)));
@@ -153,7 +153,7 @@ std::vector<double> ScenarioReader::numbers(const ScenarioNode& node, Dimension 
           fmt::format("{} are needed ({}), these are {}", count, what, node.children.size()));
     return {};
   }
-  return numbers(node, dimension);
+  return numbers(node, dimension, range);
 }
 
 std::optional<std::int64_t> ScenarioReader::integer(const ScenarioNode& node, std::int64_t low, std::int64_t high) {

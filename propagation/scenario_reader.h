@@ -51,8 +51,8 @@ class ScenarioReader {
   /// One number, or a list of them. Empty after a fault.
   std::vector<double> numbers(const ScenarioNode& node, Dimension dimension, const NumberRange& range = {});
   /// Exactly `count` numbers; `what` names them for messages, e.g. "east, north, up". Empty after a fault.
-  std::vector<double> numbers(const ScenarioNode& node, Dimension dimension, std::size_t count,
-                              const std::string& what);
+  std::vector<double> numbers(const ScenarioNode& node, Dimension dimension, std::size_t count, const std::string& what,
+                              const NumberRange& range = {});
   /// A whole number (1e6 and "1e6" are whole).
   std::optional<std::int64_t> integer(const ScenarioNode& node, std::int64_t low, std::int64_t high);
   /// A text; nothing after a fault (wrong kind, empty).

@@ -12,11 +12,11 @@
 
 namespace grimaldi {
 
-/// One value of a scenario with all that lies below it.
-/// A key of more parts than this is no key of a scenario; the tree is walked by recursion, so the stack must be kept from
-/// it.
+/// A key of more parts than this is no key of a scenario; the tree is walked by recursion, so the stack must be kept
+/// from it.
 inline constexpr int deepest_key = 64;
 
+/// One value of a scenario with all that lies below it.
 struct ScenarioNode {
   enum class Kind { table, list, text, integer, real, boolean, date };
   Kind kind = Kind::table;

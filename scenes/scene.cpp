@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <set>
@@ -161,6 +162,17 @@ std::uint64_t fingerprint(const Scene& scene) {
   return print.value();
 }
 
+// Beyond it single precision, which rays are traced in, comes to its end: products of four lengths must stay below
+// 1e38.
+constexpr double farthest = 1e8;  // m
+
+/// The greatest coordinate, m.
+double reach_of(const std::vector<Vec3>& vertices) {
+  double reach = 0;
+  for (const Vec3& p : vertices) reach = std::max({reach, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  return reach;
+}
+
 void measure(Scene& scene) {
   constexpr double lowest_plane = 0.01;  // m; see Scene::triangle_is_ground
   constexpr double vertical = 0.9998;    // cosine of 1°
@@ -180,7 +192,8 @@ void measure(Scene& scene) {
 
 void report_rims(const std::string& file, const OpenRims& rims, Diagnostics& diagnostics) {
   if (rims.count == 0) return;
-  diagnostics.warning(file, 0, "", fmt::format("{} open rim{}, {:.1f} m", rims.count, rims.count == 1 ? "" : "s", rims.length),
+  diagnostics.warning(file, 0, "",
+                      fmt::format("{} open rim{}, {:.1f} m", rims.count, rims.count == 1 ? "" : "s", rims.length),
                       "edges of sheets and of holes, neither on the ground nor at the foot of a solid",
                       "if a surface is missing there, mend the mesh");
 }
@@ -210,6 +223,12 @@ Scene build_scene(const SceneDescription& description, const MaterialChoice& cho
                                         mesh.defects.degenerate)
                           : "",
                       mesh.defects.degenerate > 0 ? "are the coordinates in metres?" : "");
+    return scene;
+  }
+  if (const double reach = reach_of(mesh.vertices); reach > farthest) {
+    diagnostics.error(description.name, 0, "", fmt::format("a vertex lies {:.3g} m away", reach),
+                      fmt::format("a scene reaches {:g} m at the most, 2.5 times round the Earth", farthest),
+                      "are the coordinates in metres?");
     return scene;
   }
   scene.vertices = std::move(mesh.vertices);

@@ -47,8 +47,8 @@ struct MaterialChoice {
 /// the file bases on another (MaterialDescription::based_on) takes from that one, as the scenario or the table has it,
 /// what the file does not say.
 /// Errors to `diagnostics`: unknown material (with did you mean; concrete stands in for it, so that the scene can be
-/// held against a plan all the same), no triangles (the scene is empty then). Warnings: faces without material, defects
-/// found, open rims.
+/// held against a plan all the same), no triangles or a vertex beyond 1e8 m (the scene is empty then). Warnings: faces
+/// without material, defects found, open rims.
 Scene build_scene(const SceneDescription& description, const MaterialChoice& choice, Diagnostics& diagnostics);
 
 }  // namespace grimaldi

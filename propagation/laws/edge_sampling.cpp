@@ -14,8 +14,9 @@ namespace {
 /// Share of the draws that is uniform over the exterior: where the terms' sum exceeds the lobes (products of terms far
 /// from both boundaries).
 constexpr double uniform_share = 0.25;
-/// Below this, a boundary has no room on that side, rad.
-constexpr double least_reach = 1e-9;
+/// A side of a boundary that holds less of ∫|U|² than this is left to the uniform part: it could not be told from
+/// rounding.
+constexpr double least_share = 1e-6;
 
 }  // namespace
 
@@ -43,7 +44,8 @@ AzimuthLaw::AzimuthLaw(const EdgeSector& sector, double provisional_distance, do
     if (boundary < 0 || boundary > exterior_angle_) return;
     for (const double sign : {1.0, -1.0}) {
       const double reach = std::min(pi, sign > 0 ? exterior_angle_ - boundary : boundary);
-      if (reach > least_reach) lobes_[count_++] = {boundary, sign, reach, edge_tail(parameter(reach))};
+      const double tail = reach > 0 ? edge_tail(parameter(reach)) : 1;
+      if (1 - tail > least_share) lobes_[count_++] = {boundary, sign, reach, tail};
     }
   };
   add(sector.phi_in + pi);

@@ -33,6 +33,8 @@ double over_square(double x, double y) {
 /// Half the length of the silhouette that is taken, over sigma: three standard deviations of the amplitude.
 const double reach = 3 * std::sqrt(2.0);
 
+constexpr double uniform_share = 1.0 / 7;
+
 }  // namespace
 
 double alpha1(double zeta_x, double zeta_y) { return over_square(zeta_x, zeta_y) * difference_over(zeta_x) / (2 * pi); }
@@ -59,30 +61,47 @@ double published_edge_power(const PublishedEdge& edge) {
   return (ex * ex + ey * ey) * (std::norm(difference) * integral1 + std::norm(mean) * integral2);
 }
 
-std::vector<PublishedEdge> straight_silhouette(const PublishedFootprint& footprint, double distance) {
-  GRIMALDI_EXPECT(footprint.sigma > 0 && footprint.pieces > 0);
-  const double half = reach * footprint.sigma, peak = 1 / (std::sqrt(2 * pi) * footprint.sigma);
-  const auto amplitude = [&](double along) {
-    return peak * std::exp(-(along * along + distance * distance) / (4 * footprint.sigma * footprint.sigma));
-  };
-  std::vector<PublishedEdge> edges;
-  for (int i = 0; i < footprint.pieces; ++i) {
-    const double from = half - 2 * half * i / footprint.pieces, to = half - 2 * half * (i + 1) / footprint.pieces;
-    edges.push_back({{from, distance}, {to, distance}, amplitude(from), amplitude(to)});
-  }
-  return edges;
-}
-
 double power_on_obstacle(const PublishedFootprint& footprint, double distance) {
   return 0.5 * std::erfc(-distance / (std::sqrt(2.0) * footprint.sigma));
 }
 
-double published_scattering(const PublishedFootprint& footprint, double wavenumber, double distance,
-                            const PlanePoint& xi) {
+PublishedScattering::PublishedScattering(const PublishedFootprint& footprint, double wavenumber, double distance,
+                                         double from, double to)
+    : wavenumber_(wavenumber),
+      share_(power_on_obstacle(footprint, distance)),
+      width_along_(0.5 / (wavenumber * footprint.sigma)) {
+  GRIMALDI_EXPECT(footprint.sigma > 0 && footprint.pieces > 0 && wavenumber > 0);
+  const double half = reach * footprint.sigma, length = 2 * half / footprint.pieces;
+  const double peak = 1 / (std::sqrt(2 * pi) * footprint.sigma);
+  width_towards_ = std::sqrt(6.0) / (wavenumber * length);
+  const auto amplitude = [&](double along) {
+    return peak * std::exp(-(along * along + distance * distance) / (4 * footprint.sigma * footprint.sigma));
+  };
+  // From the far end backwards: the obstacle is on the left.
+  for (int i = 0; i < footprint.pieces; ++i) {
+    const double start = std::min(half - i * length, to), end = std::max(half - (i + 1) * length, from);
+    if (start > end) edges_.push_back({{start, distance}, {end, distance}, amplitude(start), amplitude(end)});
+  }
+}
+
+double PublishedScattering::operator()(const PlanePoint& xi) const {
   std::complex<double> sum = 0;
-  for (const PublishedEdge& edge : straight_silhouette(footprint, distance))
-    sum += published_edge_wave(wavenumber, edge, xi);
-  return std::norm(sum) / power_on_obstacle(footprint, distance);
+  for (const PublishedEdge& edge : edges_) sum += published_edge_wave(wavenumber_, edge, xi);
+  return std::norm(sum) / share_;
+}
+
+PlanePoint PublishedScattering::draw(double choice, double u, double v) const {
+  if (choice < uniform_share) {
+    const double radius = std::sqrt(u);
+    return {radius * std::cos(2 * pi * v), radius * std::sin(2 * pi * v)};
+  }
+  return {width_along_ * std::tan(pi * (u - 0.5)), width_towards_ * std::tan(pi * (v - 0.5))};
+}
+
+double PublishedScattering::density(const PlanePoint& xi) const {
+  const auto cauchy = [](double x, double width) { return width / (pi * (x * x + width * width)); };
+  const double uniform = xi[0] * xi[0] + xi[1] * xi[1] < 1 ? uniform_share / pi : 0;
+  return uniform + (1 - uniform_share) * cauchy(xi[0], width_along_) * cauchy(xi[1], width_towards_);
 }
 
 double published_half_plane_level(const PublishedFootprint& footprint, double wavelength, double before, double behind,
@@ -107,7 +126,8 @@ double published_half_plane_level(const PublishedFootprint& footprint, double wa
       const Vec3 along = normalized(edge - dot(edge, in) * in), towards = cross(along, in);
       const double up = towards.z > 0 ? 1 : -1, gap = std::abs(dot(hit, towards));
       const double density =
-          published_scattering(footprint, wavenumber, gap, {dot(out, along), up * dot(out, towards)}) * cosine;
+
+          PublishedScattering(footprint, wavenumber, gap)({dot(out, along), up * dot(out, towards)}) * cosine;
       const double irradiance = before / (s_in * s_in * s_in);  // over that of unit flux per steradian
       sum += irradiance * density / (s_out * s_out) * width * std::cosh(t);
     }

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <complex>
+#include <limits>
 #include <vector>
 
 namespace grimaldi {
@@ -54,18 +55,38 @@ struct PublishedFootprint {
 /// Standard deviation of the footprint over the wavelength, as published.
 inline constexpr double published_sigma_wavelengths = 25;
 
-/// The pieces of a straight silhouette at `distance` (m, > 0) from the footprint's centre, along the first axis at
-/// second coordinate `distance`; the obstacle below.
-std::vector<PublishedEdge> straight_silhouette(const PublishedFootprint& footprint, double distance);
-
 /// Share of the footprint's power on an obstacle whose straight silhouette is at `distance` (m, < 0 if the centre
 /// misses it): Φ(distance/sigma).
 double power_on_obstacle(const PublishedFootprint& footprint, double distance);
 
-/// Diffracted power per solid angle of one hit, weight 1/P_A: |Σ R ψ̂_j(ξ)|²/P_A, 1/sr.
-/// Inputs: distance of the hit from the silhouette (m, ≥ 0), xi across the ray: along the edge, and towards it.
-double published_scattering(const PublishedFootprint& footprint, double wavenumber, double distance,
-                            const PlanePoint& xi);
+/// One hit near one straight silhouette, and how it sends power on. Axes across the ray: along the edge, and from the
+/// hit towards it.
+class PublishedScattering {
+ public:
+  /// Inputs: wavenumber rad/m; distance of the hit from the silhouette, m ≥ 0; the silhouette's ends from the foot of
+  /// the hit, m along it.
+  PublishedScattering(const PublishedFootprint& footprint, double wavenumber, double distance,
+                      double from = -std::numeric_limits<double>::infinity(),
+                      double to = std::numeric_limits<double>::infinity());
+
+  /// The silhouette's pieces inside the footprint, the obstacle (as the aperture) on their left.
+  const std::vector<PublishedEdge>& edges() const { return edges_; }
+
+  /// Diffracted power per d²ξ (so per cos θ dΩ), weight 1/P_A: |Σ R ψ̂_j(ξ)|²/P_A, 1/sr.
+  double operator()(const PlanePoint& xi) const;
+
+  /// A direction from a law of the pattern's widths: Cauchy of 1/(2k sigma) along the edge and of √6/(k e) towards it,
+  /// e the length of a piece; one in seven uniform in d²ξ. May lie outside the unit disc: no power goes there. Inputs:
+  /// uniform numbers in (0, 1).
+  PlanePoint draw(double choice, double u, double v) const;
+
+  /// Density of draw per d²ξ.
+  double density(const PlanePoint& xi) const;
+
+ private:
+  double wavenumber_, share_, width_along_, width_towards_;
+  std::vector<PublishedEdge> edges_;
+};
 
 /// Expectation, over all launched rays, of the published estimate behind a half-plane, over free space: rays that hit
 /// it, each connected from its hit. Geometry: source at distance `before` from the edge, at the edge's height, receiver

@@ -24,10 +24,10 @@ namespace grimaldi::test {
 namespace fs = std::filesystem;
 
 struct Outcome {
-  int code = -1;       // exit code, −1 if a signal ended it
-  int signal = 0;      // that signal
-  std::string out;     // stdout
-  std::string err;     // stderr
+  int code = -1;    // exit code, −1 if a signal ended it
+  int signal = 0;   // that signal
+  std::string out;  // stdout
+  std::string err;  // stderr
 };
 
 // A folder of its own for each test, in which the program runs.

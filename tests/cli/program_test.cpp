@@ -92,6 +92,34 @@ TEST_F(Program, JsonIsTheSummaryAndNothingElse) {
   EXPECT_LE(summary["cells_asked"].get<int>(), summary["cells"].get<int>());
 }
 
+TEST_F(Program, XarrayOpensTheResultWithBothEngines) {
+  ASSERT_EQ(run({"coverage", "--scene", "demo-city", "--frequency", "3.5GHz,28GHz", "--tx", "8.5,21,27", "--rx",
+                 "120,20,1.5", "--rays", "20000", "--depth", "2", "--cell-size", "20", "-o", "out"})
+                .code,
+            0);
+  // read_result.py opens each group with the netcdf4 and the h5netcdf engine and fails if they disagree in anything.
+  const std::string command = "/usr/bin/python3 '" GRIMALDI_SOURCE "/tests/propagation/read_result.py' '" +
+                              (folder_ / "out/result.h5").string() + "' coverage profile/rx1 > '" +
+                              (folder_ / "read.json").string() + "' 2> '" + (folder_ / "read.err").string() + "'";
+  const int status = std::system(command.c_str());
+  if (status < 0 || WEXITSTATUS(status) == 77 || WEXITSTATUS(status) == 127)
+    GTEST_SKIP() << "needs /usr/bin/python3 with xarray, netCDF4 and h5netcdf";
+  ASSERT_EQ(status, 0) << contents("read.err");
+  const auto read = nlohmann::json::parse(contents("read.json"));
+  EXPECT_EQ(read["attributes"]["format"], "grimaldi-result");
+  const auto& map = read["groups"]["coverage"];
+  EXPECT_EQ(map["dimensions"]["frequency"], 2);
+  EXPECT_EQ(map["dimensions"]["transmitter"], 1);
+  EXPECT_EQ(map["variables"]["frequency"]["values"], (nlohmann::json{3.5e9, 28e9}));
+  EXPECT_EQ(map["variables"]["path_gain"]["dimensions"], (nlohmann::json{"transmitter", "frequency", "y", "x"}));
+  // 700 m a side (the city and its rim) in cells of 20 m; some cell is reached, some lies wholly inside a house.
+  const auto& gain = map["variables"]["path_gain"]["values"];
+  EXPECT_EQ(gain.size(), 2u * 35 * 35);
+  EXPECT_TRUE(std::any_of(gain.begin(), gain.end(), [](const auto& v) { return v.is_number() && v > 0; }));
+  EXPECT_TRUE(std::any_of(gain.begin(), gain.end(), [](const auto& v) { return v.is_null(); }));
+  EXPECT_TRUE(read["groups"]["profile/rx1"]["variables"].contains("power"));
+}
+
 TEST_F(Program, ProfileWritesItsFiles) {
   const Outcome outcome = run(small("profile", {"-o", "deep/er"}));
   ASSERT_EQ(outcome.code, 0) << outcome.err;
@@ -199,6 +227,23 @@ TEST_F(Program, SceneTellsWhatItSees) {
   const Outcome table = run({"scene", "demo-city"});
   EXPECT_EQ(table.code, 0) << table.err;
   EXPECT_NE(table.out.find("wedges"), std::string::npos);
+}
+
+TEST_F(Program, SceneTakesKeysOfTheScene) {
+  const Outcome outcome = run({"scene", "street-canyon", "--json", "--set", "scene.parameters.count=2", "--set",
+                               "scene.replace_materials.brick=glass"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");  // feet on the ground and the end of the ground are no open rims
+  const auto json = nlohmann::json::parse(outcome.out);
+  // Two rows of two houses without floor, 4 walls and a roof each; every rim of house and ground is a boundary loop.
+  EXPECT_EQ(json["defects"]["holes"], 5);
+  EXPECT_EQ(json["open_rims"]["count"], 0);
+  std::vector<std::string> names;
+  for (const auto& material : json["materials"]) names.push_back(material["name"]);
+  EXPECT_EQ(names, (std::vector<std::string>{"concrete", "glass", "metal"}));
+  const Outcome screen = run({"scene", "half-plane", "--json"});
+  EXPECT_EQ(nlohmann::json::parse(screen.out)["open_rims"]["count"], 1);
+  EXPECT_NE(screen.err.find("1 open rim, 4000.0 m"), std::string::npos) << screen.err;
 }
 
 TEST_F(Program, AFullDiskOfStandardOutputIsAFaultNotSilence) {
