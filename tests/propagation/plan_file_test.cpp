@@ -229,7 +229,7 @@ TEST_F(PlanFile, TheTextRunsAgainToTheSameDescription) {
   const PlanDescription first =
       read(std::string(minimal) + R"([[receiver]]
 name = "a \"quoted\" one"
-position = [0.1, -1e-7, 1e22]
+position = [0.1, -1e-7, 1.5e7]
 [scene.parameters]
 width = 0.30000000000000004
 )",
@@ -239,7 +239,7 @@ width = 0.30000000000000004
   EXPECT_EQ(again.text, first.text);  // a fixed point: nothing is lost or reordered
   EXPECT_EQ(again.seed, 5u);
   EXPECT_EQ(again.transmitters.at(0).position, (Vec3{4, 5, 6}));
-  EXPECT_EQ(again.receivers.at(0).position, (Vec3{0.1, -1e-7, 1e22}));  // every bit
+  EXPECT_EQ(again.receivers.at(0).position, (Vec3{0.1, -1e-7, 1.5e7}));  // every bit
   EXPECT_EQ(again.receivers.at(0).name, "a \"quoted\" one");
   EXPECT_EQ(again.builtin_parameters.at("width"), 0.30000000000000004);
   EXPECT_EQ(diagnostics_.all().size(), before.size());
