@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "core/blocks.h"
 #include "core/constants.h"
@@ -18,8 +19,10 @@ namespace {
 
 constexpr std::uint64_t block_size = 4096;
 constexpr std::uint64_t aimed_block_size = 256;
-/// A pass aims one beam at edges for this many that it launches.
-constexpr std::uint64_t rays_per_aimed = 8;
+/// Rims of a blocking patch and of its neighbours tried for a way around it.
+constexpr int rims_tried = 4;
+/// Of the azimuth of a wave that runs along a face, rad.
+constexpr double azimuth_rounding = 1e-9;
 /// Paths weaker than the wave at 1 m by this factor (140 dB) are not sought.
 constexpr double gain_floor = 1e-14;
 constexpr std::uint32_t edge_stream = 2, aim_stream = 4;
@@ -285,57 +288,115 @@ class Walker {
       const Wedge& wedge = wedges.wedges[wedge_index];
       // The face that the beam comes from cannot send it to its own rim but along itself: that wave is a term of the
       // edge.
-      if (beam.leave0 == wedge.patch0 || beam.leave0 == wedge.patchn) continue;
-      if (beam.depth > 0 && beam.interactions[beam.depth - 1] == edge_interaction(wedge_index)) continue;
+      const Interaction last = beam.interactions[beam.depth - 1];
+      if (last == wedge.patch0 || last == wedge.patchn || last == edge_interaction(wedge_index)) continue;
       const double along = std::clamp(dot(point - wedge.start, wedge.direction), 0.0, wedge.length);
       if (norm2(point - wedge.point(along)) > reach * reach) continue;
       leave_edge(beam, wedge_index, along, hit.distance);
     }
     const auto u = uniform4(plan_.request.seed, edge_stream, beam_number_, draws_++);
-    std::uint32_t target = rims_.pick(hit_patch, u[0]);
+    const std::uint32_t target = pick_near(hit_patch, u);
     if (target == no_index) return;
-    if (u[1] < 0.5) {
-      const Wedge& wedge = scene_.wedges.wedges[target];
-      target = rims_.pick(wedge.patch0 == hit_patch ? wedge.patchn : wedge.patch0, u[2]);
-    }
     aim(beam, target, u[3]);
   }
 
-  /// Beams leave a wedge that the beam's last point sees, whichever way the beam went.
+  /// Beams leave a wedge that the beam's last point sees, whichever way the beam went. What stands between is gone around.
   void aim(const Beam& beam, std::uint32_t wedge_index, double share) {
     const Wedge& wedge = scene_.wedges.wedges[wedge_index];
-    if (beam.depth > 0 && (beam.leave0 == wedge.patch0 || beam.leave0 == wedge.patchn)) return;
+    if (beam.depth > 0) {
+      const Interaction last = beam.interactions[beam.depth - 1];
+      if (last == wedge.patch0 || last == wedge.patchn || last == edge_interaction(wedge_index)) return;
+    }
     const double along = share * wedge.length;
-    const double half = 0.5 * wedge.exterior_angle;
-    const Vec3 seen = wedge.point(along) +
-                      3 * tracer_.surface_gap() * (std::cos(half) * wedge.along0 + std::sin(half) * wedge.normal0);
+    const Vec3 seen = outside(wedge, along);
     ++records_->segments;
-    if (!tracer_.visible(beam.origin, seen)) return;
-    leave_edge(beam, wedge_index, along, distance(beam.origin, seen));
+    if (tracer_.visible(beam.origin, seen))
+      leave_edge(beam, wedge_index, along, distance(beam.origin, seen));
+    else
+      go_around(beam, wedge_index, share, seen);
   }
 
-  void leave_edge(const Beam& beam, std::uint32_t wedge_index, double along, double hit_distance) {
-    const Wedge& wedge = scene_.wedges.wedges[wedge_index];
-    const Vec3 edge_point = wedge.point(along);
-    const Vec3 virtual_source = beam.origin - beam.since_vertex * beam.direction;
-    const Vec3 way = edge_point - virtual_source;
-    const double incident_length = norm(way);
-    if (incident_length < 1e-6) return;
-    const Vec3 incident = way / incident_length;
-    const double cos_beta = dot(incident, wedge.direction);
-    const double sin_beta = std::sqrt(std::max(0.0, 1 - cos_beta * cos_beta));
-    if (sin_beta < 1e-3) return;  // along the edge: no cone
-    double phi_in = std::atan2(-dot(incident, wedge.normal0), -dot(incident, wedge.along0));
-    constexpr double rounding = 1e-9;  // of a source that lies in the plane of a face
-    if (phi_in < -rounding) phi_in += 2 * pi;
-    if (phi_in > wedge.exterior_angle + rounding) return;  // the wave comes through the solid
-    const double gain = gain_at(beam, hit_distance);
-    if (gain < gain_floor) return;
-    Beam child;
-    child.radius = incident_length;
+  /// A point of the edge as rays see it: moved out of the solid.
+  Vec3 outside(const Wedge& wedge, double along) const {
     const double half = 0.5 * wedge.exterior_angle;
-    child.origin =
-        edge_point + 3 * tracer_.surface_gap() * (std::cos(half) * wedge.along0 + std::sin(half) * wedge.normal0);
+    return wedge.point(along) +
+           3 * tracer_.surface_gap() * (std::cos(half) * wedge.along0 + std::sin(half) * wedge.normal0);
+  }
+
+  /// The way to `target` is blocked: try rims of the patch that blocks it, and of its neighbours, as an edge before it.
+  void go_around(const Beam& beam, std::uint32_t target, double share, const Vec3& seen) {
+    if (beam.depth + 2 > plan_.request.depth || beam.diffractions + 2 > most_edges_) return;
+    const double length = distance(beam.origin, seen);
+    const Vec3 direction = (seen - beam.origin) / length;
+    ++records_->segments;
+    const Hit hit = tracer_.nearest(beam.origin, direction, beam.leave0, beam.leave1);
+    if (hit.triangle == no_index || hit.distance > length) return;
+    const std::uint32_t blocking = scene_.patches.triangle_patch[hit.triangle];
+    for (int i = 0; i < rims_tried; ++i) {
+      const auto u = uniform4(plan_.request.seed, edge_stream, beam_number_, draws_++);
+      const std::uint32_t rim = pick_near(blocking, u);
+      if (rim == no_index || rim == target) continue;
+      const Wedge& wedge = scene_.wedges.wedges[rim];
+      if (beam.depth > 0) {
+        const Interaction last = beam.interactions[beam.depth - 1];
+        if (last == wedge.patch0 || last == wedge.patchn || last == edge_interaction(rim)) continue;
+      }
+      // Where the edge comes nearest to the straight way.
+      const double cosine = dot(direction, wedge.direction);
+      const Vec3 offset = wedge.start - beam.origin;
+      const double nearest =
+          (cosine * dot(offset, direction) - dot(offset, wedge.direction)) / std::max(1 - cosine * cosine, 1e-6);
+      const double along = std::clamp(nearest, 0.0, wedge.length);
+      const Vec3 corner = outside(wedge, along);
+      ++records_->segments;
+      if (!tracer_.visible(beam.origin, corner)) continue;
+      const auto passed = pass_edge(beam, rim, along, distance(beam.origin, corner));
+      if (!passed) continue;
+      Beam child = passed->beam;
+      child.direction = normalized(seen - child.origin);
+      double phi = std::atan2(dot(child.direction, wedge.normal0), dot(child.direction, wedge.along0));
+      if (phi < -azimuth_rounding) phi += 2 * pi;
+      if (phi > wedge.exterior_angle + azimuth_rounding) continue;
+      child.strength *= diffracted_strength(wedge, passed->phi_in, phi, passed->sin_beta, child.radius);
+      aim(child, target, share);
+    }
+  }
+
+  /// The wedge of a patch, or as often of a patch next to it, that the numbers u name.
+  std::uint32_t pick_near(std::uint32_t patch, const std::array<double, 4>& u) const {
+    const std::uint32_t first = rims_.pick(patch, u[0]);
+    if (first == no_index || u[1] >= 0.5) return first;
+    const Wedge& wedge = scene_.wedges.wedges[first];
+    return rims_.pick(wedge.patch0 == patch ? wedge.patchn : wedge.patch0, u[2]);
+  }
+
+  /// A beam about to leave an edge: direction and the edge's factor of its strength are still to be chosen.
+  struct PassedEdge {
+    Beam beam;
+    double phi_in, sin_beta, cos_beta;
+  };
+
+  /// Nothing if the wave comes along the edge, through the solid, or too weak.
+  std::optional<PassedEdge> pass_edge(const Beam& beam, std::uint32_t wedge_index, double along, double hit_distance) const {
+    const Wedge& wedge = scene_.wedges.wedges[wedge_index];
+    const Vec3 virtual_source = beam.origin - beam.since_vertex * beam.direction;
+    const Vec3 way = wedge.point(along) - virtual_source;
+    const double incident_length = norm(way);
+    if (incident_length < 1e-6) return std::nullopt;
+    const Vec3 incident = way / incident_length;
+    PassedEdge passed;
+    passed.cos_beta = dot(incident, wedge.direction);
+    passed.sin_beta = std::sqrt(std::max(0.0, 1 - passed.cos_beta * passed.cos_beta));
+    if (passed.sin_beta < 1e-3) return std::nullopt;  // along the edge: no cone
+    passed.phi_in = std::atan2(-dot(incident, wedge.normal0), -dot(incident, wedge.along0));
+    if (passed.phi_in < -azimuth_rounding) passed.phi_in += 2 * pi;
+    if (passed.phi_in > wedge.exterior_angle + azimuth_rounding) return std::nullopt;
+    const double gain = gain_at(beam, hit_distance);
+    if (gain < gain_floor) return std::nullopt;
+    Beam& child = passed.beam;
+    child.radius = incident_length;
+    child.strength = gain * incident_length;
+    child.origin = outside(wedge, along);
     child.leave0 = wedge.patch0;
     child.leave1 = wedge.patchn;
     child.length = beam.length + hit_distance;
@@ -346,14 +407,21 @@ class Walker {
     child.diffractions = static_cast<std::uint8_t>(beam.diffractions + 1);
     child.interactions = beam.interactions;
     append(child, edge_interaction(wedge_index));
-    keep_if_wanted(child);
+    return passed;
+  }
+
+  void leave_edge(const Beam& beam, std::uint32_t wedge_index, double along, double hit_distance) {
+    const Wedge& wedge = scene_.wedges.wedges[wedge_index];
+    const auto passed = pass_edge(beam, wedge_index, along, hit_distance);
+    if (!passed) return;
+    keep_if_wanted(passed->beam);
     const int beams = beam.depth == 0 ? beams_per_first_edge : beams_per_edge;
     for (int i = 0; i < beams; ++i) {
-      const double phi = draw_azimuth(wedge, phi_in, sin_beta, incident_length);
-      child.strength = gain * incident_length * diffracted_strength(wedge, phi_in, phi, sin_beta, incident_length);
-      child.direction = normalized(cos_beta * wedge.direction +
-                                   sin_beta * (std::cos(phi) * wedge.along0 + std::sin(phi) * wedge.normal0));
-      pending_.push_back(child);
+      Beam& child = pending_.emplace_back(passed->beam);
+      const double phi = draw_azimuth(wedge, passed->phi_in, passed->sin_beta, child.radius);
+      child.strength *= diffracted_strength(wedge, passed->phi_in, phi, passed->sin_beta, child.radius);
+      child.direction = normalized(passed->cos_beta * wedge.direction +
+                                   passed->sin_beta * (std::cos(phi) * wedge.along0 + std::sin(phi) * wedge.normal0));
     }
   }
 
@@ -480,7 +548,7 @@ Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, 
     const std::uint64_t blocks = (count + block_size - 1) / block_size;
     // One beam a pass to each wedge, or to as many as there are rays in the pass.
     const std::uint64_t wedges = request.diffraction && request.max_diffractions > 0 ? scene.wedges.wedges.size() : 0;
-    const std::uint64_t aimed = std::min(wedges, count / rays_per_aimed + 1),
+    const std::uint64_t aimed = std::min(wedges, count),
                         aimed_blocks = (aimed + aimed_block_size - 1) / aimed_block_size;
     std::vector<BlockRecords> records(blocks + aimed_blocks);
     for_each_block(
