@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "core/constants.h"
 
@@ -50,13 +51,10 @@ double received_power(const std::array<std::complex<double>, 2>& field, Polarisa
   return correlation(field, field, polarisation);
 }
 
-std::uint32_t CompositeSum::node_of(SequenceHash composite, std::span<const Arrival> arrivals) {
-  for (std::uint32_t a = 0; a < arrivals.size(); ++a)
-    if (arrivals[a].hash == composite) return a;
-  for (std::uint32_t i = 0; i < absent_.size(); ++i)
-    if (absent_[i] == composite) return static_cast<std::uint32_t>(arrivals.size()) + i;
-  absent_.push_back(composite);
-  return static_cast<std::uint32_t>(arrivals.size() + absent_.size() - 1);
+std::uint32_t CompositeSum::node_of(SequenceHash composite) {
+  const auto [place, added] = node_by_hash_.try_emplace(composite, static_cast<std::uint32_t>(arrivals_ + absent_));
+  absent_ += added;
+  return place->second;
 }
 
 void CompositeSum::tie_to_composites(std::span<const Arrival> arrivals) {
@@ -73,8 +71,7 @@ void CompositeSum::tie_to_composites(std::span<const Arrival> arrivals) {
       for (std::size_t kind = 0; kind < kinds; ++kind) {
         const double v = boundary_parameter(*scene_, arrival.geometry, e, bounded[kind].first, longest);
         if (v >= no_coherence) continue;
-        const std::uint32_t node =
-            node_of(without_edge(arrival.interactions, position, bounded[kind].second), arrivals);
+        const std::uint32_t node = node_of(without_edge(arrival.interactions, position, bounded[kind].second));
         ties_.push_back({node, a, static_cast<std::uint32_t>(weights_.size())});
         for (const double k : plan_->wavenumber)
           weights_.push_back(coherence(v * std::sqrt(k / plan_->wavenumber.front())));
@@ -104,12 +101,16 @@ void CompositeSum::tie_corners(std::span<const Arrival> arrivals) {
         ends.push_back({rest, wedge.vertex_end, a});
     }
   }
-  for (std::size_t i = 0; i < ends.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (ends[i].rest == ends[j].rest && ends[i].vertex == ends[j].vertex && ends[i].arrival != ends[j].arrival) {
-        ties_.push_back({ends[j].arrival, ends[i].arrival, static_cast<std::uint32_t>(weights_.size())});
-        weights_.insert(weights_.end(), plan_->bands(), 1.0);
-      }
+  // A chain of ties through each corner makes its arrivals one wave.
+  std::sort(ends.begin(), ends.end(), [](const End& x, const End& y) {
+    return std::tie(x.rest, x.vertex, x.arrival) < std::tie(y.rest, y.vertex, y.arrival);
+  });
+  for (std::size_t i = 1; i < ends.size(); ++i)
+    if (ends[i].rest == ends[i - 1].rest && ends[i].vertex == ends[i - 1].vertex &&
+        ends[i].arrival != ends[i - 1].arrival) {
+      ties_.push_back({ends[i - 1].arrival, ends[i].arrival, static_cast<std::uint32_t>(weights_.size())});
+      weights_.insert(weights_.end(), plan_->bands(), 1.0);
+    }
 }
 
 std::uint32_t CompositeSum::root_of(std::uint32_t node) {
@@ -122,7 +123,7 @@ void CompositeSum::span_tree() {
     if (weights_[x.weights] != weights_[y.weights]) return weights_[x.weights] > weights_[y.weights];
     return x.a != y.a ? x.a < y.a : x.b < y.b;
   });
-  const std::size_t nodes = arrivals_ + absent_.size();
+  const std::size_t nodes = arrivals_ + absent_;
   root_.resize(nodes);
   for (std::uint32_t i = 0; i < nodes; ++i) root_[i] = i;
   // Kruskal; the kept ties as linked lists of neighbours.
@@ -158,15 +159,17 @@ void CompositeSum::interference(std::span<const Arrival> arrivals, Polarisation 
   std::fill(out.begin(), out.end(), 0.0);
   ties_.clear();
   weights_.clear();
-  absent_.clear();
+  absent_ = 0;
   arrivals_ = arrivals.size();
   if (arrivals.size() < 2) return;
+  node_by_hash_.clear();
+  for (std::uint32_t a = 0; a < arrivals.size(); ++a) node_by_hash_[arrivals[a].hash] = a;
   tie_to_composites(arrivals);
   tie_corners(arrivals);
   span_tree();
   for (std::size_t band = 0; band < plan_->bands(); ++band) {
     // From the leaves: a node's sum is its own wave and its branches' sums, each times the weight of its tie.
-    sums_.assign(arrivals_ + absent_.size(), {});
+    sums_.assign(arrivals_ + absent_, {});
     for (std::size_t a = 0; a < arrivals_; ++a) sums_[a] = arrivals[a].field[band];
     for (std::size_t i = branches_.size(); i-- > 0;) {
       const Branch& branch = branches_[i];

@@ -5,6 +5,7 @@
 #include <complex>
 #include <cstdint>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "propagation/fermat.h"
@@ -58,14 +59,15 @@ class CompositeSum {
   void tie_to_composites(std::span<const Arrival> arrivals);
   void tie_corners(std::span<const Arrival> arrivals);
   void span_tree();
-  std::uint32_t node_of(SequenceHash composite, std::span<const Arrival> arrivals);
+  std::uint32_t node_of(SequenceHash composite);
   std::uint32_t root_of(std::uint32_t node);
 
   const Scene* scene_;
   const Plan* plan_;
   std::vector<Tie> ties_;
   std::vector<double> weights_;
-  std::vector<SequenceHash> absent_;  ///< composites whose bounded wave does not arrive
+  std::unordered_map<SequenceHash, std::uint32_t> node_by_hash_;
+  std::size_t absent_ = 0;  ///< composites whose bounded wave does not arrive
   std::size_t arrivals_ = 0;
   std::vector<std::uint32_t> root_;  ///< union-find
   struct Branch {

@@ -71,6 +71,17 @@ Complex end_weight(const Wedge& wedge, const EdgePassage& passage, double wavele
   return weight;
 }
 
+/// True if the wave comes from another edge along a face that both bound. What arrives is then the wave and its image
+/// in one, and the edge's two terms would count it twice.
+bool grazes_common_face(const Scene& scene, Interaction before, const Wedge& wedge, const EdgePassage& passage) {
+  if (!is_edge(before)) return false;
+  const Wedge& other = scene.wedges.wedges[index_of(before)];
+  const auto bounds = [&](std::uint32_t patch) { return other.patch0 == patch || other.patchn == patch; };
+  const double grazing = 5e-3 / passage.s_in;  // rad; both edges lie on the face to the millimetres of a patch's plane
+  return (passage.phi_in < grazing && bounds(wedge.patch0)) ||
+         (passage.phi_in > wedge.exterior_angle - grazing && bounds(wedge.patchn));
+}
+
 /// cos of the angle of incidence on the faces of a wedge, the mean of both legs' coefficients makes the term
 /// reciprocal.
 ReflectionCoefficients wedge_face_reflection(const Plan& plan, std::uint32_t material, std::size_t band,
@@ -168,7 +179,8 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
         return edge_wave(fresnel_parameter(effective, wavelength, passage.sin_beta, epsilon), epsilon >= 0);
       };
       const Complex incident = term(Boundary::incident);
-      const Complex weight = end_weight(wedge, passage, wavelength, wavenumber);
+      Complex weight = end_weight(wedge, passage, wavelength, wavenumber);
+      if (i > 0 && grazes_common_face(scene, interactions[i - 1], wedge, passage)) weight *= 0.5;
       if (radio) {
         Complex beta = incident * dot(e, in.beta), phi = incident * dot(e, in.phi);
         if (faces) {

@@ -170,6 +170,7 @@ std::uint64_t connect_receivers(const Scene& scene, const Tracer& tracer, const 
     const Receiver& receiver = plan.request.receivers[r];
     const auto arrivals = arrivals_at(scene, tracer, plan, plan.request.transmitters[transmitter], receiver.position,
                                       discovered, shadow_rays, stop);
+    if (stop && *stop) break;
     add_transmitter(scene, plan, transmitter, receiver, arrivals, profiles[r]);
   }
   return shadow_rays;

@@ -98,9 +98,16 @@ Hit Tracer::nearest(const Vec3& origin, const Vec3& direction, std::uint32_t lea
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   const auto& patches = scene_->patches;
+  // Embree starts a little off the face that is left, on the side where the ray goes: else it hits that face first
+  // nearly always and is asked twice.
+  Vec3 start = origin;
+  if (leave0 != no_index && leave1 == no_index) {
+    const Vec3& normal = patches.patches[leave0].normal;
+    start += std::copysign(0.5 * surface_gap_, dot(normal, direction)) * normal;
+  }
   float near = 0;
   for (;;) {
-    RTCRayHit query = device_->ray(origin, direction, near, infinite);
+    RTCRayHit query = device_->ray(start, direction, near, infinite);
     rtcIntersect1(device_->scene, &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
     const std::uint32_t patch_index = patches.triangle_patch[query.hit.primID];
