@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
-#include "core/blocks.h"
 #include "core/constants.h"
 #include "core/random.h"
 
@@ -39,125 +39,138 @@ std::vector<GaussPoint> gauss_legendre(int n) {
   return points;
 }
 
-/// Cells that the plan of a triangle's edge crosses.
-std::vector<std::uint8_t> crossed_cells(const Scene& scene, const GridLayout& grid) {
-  std::vector<std::uint8_t> crossed(grid.size(), 0);
-  const auto cell_of = [](double x, std::size_t n) {
-    return static_cast<std::size_t>(std::clamp(std::floor(x), 0.0, double(n) - 1));
-  };
-  for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
-    if (scene.triangle_is_ground[t]) continue;
-    const auto& corners = scene.triangles[t];
-    const Vec3 p[3] = {scene.vertices[corners[0]], scene.vertices[corners[1]], scene.vertices[corners[2]]};
-    if (std::max({p[0].z, p[1].z, p[2].z}) < grid.z) continue;  // nothing of it lies above the receivers
-    for (int side = 0; side < 3; ++side) {
-      double x0 = (p[side].x - grid.x0) / grid.cell, y0 = (p[side].y - grid.y0) / grid.cell;
-      double x1 = (p[(side + 1) % 3].x - grid.x0) / grid.cell, y1 = (p[(side + 1) % 3].y - grid.y0) / grid.cell;
-      if (y0 > y1) std::swap(x0, x1), std::swap(y0, y1);
-      if (y1 < 0 || y0 >= double(grid.ny)) continue;
-      for (std::size_t row = cell_of(y0, grid.ny); row <= cell_of(y1, grid.ny); ++row) {
-        // The part of the side within the row, grown by a hair for points on the rows' common line.
-        const double low = std::max(y0, double(row)), high = std::min(y1, double(row) + 1);
-        const double ta = y1 > y0 ? std::clamp((low - y0) / (y1 - y0), 0.0, 1.0) : 0;
-        const double tb = y1 > y0 ? std::clamp((high - y0) / (y1 - y0), 0.0, 1.0) : 1;
-        const double xa = x0 + ta * (x1 - x0), xb = x0 + tb * (x1 - x0);
-        const double west = std::min(xa, xb), east = std::max(xa, xb);
-        if (east < 0 || west >= double(grid.nx)) continue;
-        for (std::size_t column = cell_of(west, grid.nx); column <= cell_of(east, grid.nx); ++column)
-          crossed[row * grid.nx + column] = 1;
-      }
-    }
-  }
-  return crossed;
+/// Where a row of points meets the plan of a triangle's side: x at y, from the lower end, the same for both triangles
+/// of the side.
+double side_at(Vec3 a, Vec3 b, double y) {
+  if (a.y > b.y || (a.y == b.y && a.x > b.x)) std::swap(a, b);
+  return a.x + (y - a.y) * ((b.x - a.x) / (b.y - a.y));
 }
 
-struct CellPoints {
-  double inside_fraction = 0;
-  std::vector<SubPoint> points;
-};
+/// Per cell 64 bits, bit 8 j + i for the point of column i and row j: an odd number of surfaces lies straight above it.
+class ParityRaster {
+ public:
+  explicit ParityRaster(const GridLayout& grid) : grid_(grid), bits_(grid.size(), 0), step_(grid.cell / raster) {}
 
-/// Points a side of both sets; 0 edge points where nothing diffracts.
-struct PointCounts {
-  int fine, edge;
-};
-
-CellPoints crossed_cell(const Tracer& tracer, const GridLayout& grid, std::size_t cell, PointCounts counts,
-                        std::uint64_t seed) {
-  const Vec3 corner = grid.centre(cell) - Vec3{0.5 * grid.cell, 0.5 * grid.cell, 0};
-  std::array<bool, raster * raster> outdoor{};
-  int outdoors = 0;
-  for (int j = 0; j < raster; ++j)
-    for (int i = 0; i < raster; ++i) {
-      const Vec3 point = corner + grid.cell / raster * Vec3{i + 0.5, j + 0.5, 0};
-      outdoors += outdoor[static_cast<std::size_t>(j * raster + i)] = !tracer.inside_solid(point);
-    }
-  CellPoints result;
-  result.inside_fraction = 1 - double(outdoors) / (raster * raster);
-  if (outdoors == raster * raster) return result;
-  for (const bool edge : {false, true}) {
-    const int n = edge ? counts.edge : counts.fine;
-    for (int part = 0; part < n * n; ++part) {
-      std::vector<Vec3> points;
-      for (int j = 0; j < raster; ++j)
-        for (int i = 0; i < raster; ++i)
-          if (outdoor[static_cast<std::size_t>(j * raster + i)] && (j * n / raster) * n + i * n / raster == part)
-            points.push_back(corner + grid.cell / raster * Vec3{i + 0.5, j + 0.5, 0});
-      if (points.empty()) continue;
-      const double u = uniform4(seed, sub_point_stream, cell, static_cast<std::uint32_t>(2 * part + edge))[0];
-      const double weight = double(points.size()) / outdoors;
-      result.points.push_back(
-          {points[static_cast<std::size_t>(u * double(points.size()))], edge ? 0 : weight, edge ? weight : 0});
+  void add(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 corners[3] = {a, b, c};
+    const double top = std::max({a.z, b.z, c.z}), bottom = std::min({a.z, b.z, c.z});
+    if (top <= grid_.z) return;
+    const Vec3 normal = cross(b - a, c - a);
+    if (normal.z == 0) return;  // upright: no point lies under it
+    const double low = std::min({a.y, b.y, c.y}), high = std::max({a.y, b.y, c.y});
+    const auto rows = static_cast<std::int64_t>(grid_.ny * raster);
+    for (std::int64_t row = first_point(low - grid_.y0); row < rows; ++row) {
+      const double y = grid_.y0 + (double(row) + 0.5) * step_;
+      if (y >= high) break;
+      double from = 0, to = 0;
+      int met = 0;
+      for (int side = 0; side < 3; ++side) {
+        const Vec3& p = corners[side];
+        const Vec3& q = corners[(side + 1) % 3];
+        if ((p.y <= y) == (q.y <= y)) continue;
+        (met++ == 0 ? from : to) = side_at(p, q, y);
+      }
+      if (met != 2) continue;
+      if (from > to) std::swap(from, to);
+      toggle(row, from, to, bottom < grid_.z ? &normal : nullptr, a, y);
     }
   }
-  return result;
+
+  std::uint64_t bits(std::size_t cell) const { return bits_[cell]; }
+
+ private:
+  /// Number of the first point at or beyond `distance` from the grid's border, not below 0.
+  std::int64_t first_point(double distance) const {
+    return std::max<std::int64_t>(0,
+                                  static_cast<std::int64_t>(std::ceil(std::clamp(distance / step_ - 0.5, -1.0, 4e9))));
+  }
+
+  void toggle(std::int64_t row, double from, double to, const Vec3* normal, const Vec3& on_plane, double y) {
+    const auto columns = static_cast<std::int64_t>(grid_.nx * raster);
+    const auto cell_row = static_cast<std::size_t>(row / raster) * grid_.nx;
+    for (std::int64_t column = first_point(from - grid_.x0); column < columns; ++column) {
+      const double x = grid_.x0 + (double(column) + 0.5) * step_;
+      if (x >= to) break;
+      if (x < from) continue;
+      if (normal) {
+        const double z = on_plane.z - (normal->x * (x - on_plane.x) + normal->y * (y - on_plane.y)) / normal->z;
+        if (z <= grid_.z) continue;
+      }
+      bits_[cell_row + static_cast<std::size_t>(column / raster)] ^= std::uint64_t(1)
+                                                                     << (row % raster * raster + column % raster);
+    }
+  }
+
+  const GridLayout& grid_;
+  std::vector<std::uint64_t> bits_;
+  double step_;
+};
+
+/// Points of a cell that is partly inside, from the bits of its inside points.
+void add_partly_inside(const GridLayout& grid, std::size_t cell, std::uint64_t inside, int n, bool edge,
+                       std::uint64_t seed, std::vector<SubPoint>& out) {
+  const double outdoors = 64 - std::popcount(inside);
+  for (int part = 0; part < n * n; ++part) {
+    std::array<Vec3, raster * raster> points;
+    std::size_t count = 0;
+    for (int j = 0; j < raster; ++j)
+      for (int i = 0; i < raster; ++i)
+        if (!(inside >> (j * raster + i) & 1) && (j * n / raster) * n + i * n / raster == part)
+          points[count++] = grid.cell / raster * Vec3{i + 0.5 - raster / 2, j + 0.5 - raster / 2, 0};
+    if (count == 0) continue;
+    const double u = uniform4(seed, sub_point_stream, cell, static_cast<std::uint32_t>(2 * part + edge))[0];
+    const double weight = double(count) / outdoors;
+    out.push_back({points[static_cast<std::size_t>(u * double(count))], edge ? 0 : weight, edge ? weight : 0});
+  }
+}
+
+void add_outdoors(const GridLayout& grid, int n, bool edge, std::vector<SubPoint>& out) {
+  const std::vector<GaussPoint> gauss = gauss_legendre(n);
+  for (const GaussPoint& v : gauss)
+    for (const GaussPoint& u : gauss) {
+      const double weight = 0.25 * u.weight * v.weight;
+      out.push_back({0.5 * grid.cell * Vec3{u.position, v.position, 0}, edge ? 0 : weight, edge ? weight : 0});
+    }
 }
 
 }  // namespace
 
-int sub_points_a_side(double rays) {
-  return std::clamp(static_cast<int>(std::lround(4 * std::cbrt(rays / 1e6))), 2, 6);
+int edge_sub_points_a_side(const PlanDescription& request) {
+  if (!request.diffraction || request.max_diffractions == 0 || request.depth == 0) return 0;
+  return std::clamp(static_cast<int>(std::lround(2 * std::cbrt(request.rays / 1e6))), 2, 5);
 }
 
-int edge_sub_points_a_side(double rays) { return std::max(2, sub_points_a_side(rays) / 2); }
-
-CoverageGrid make_coverage_grid(const Scene& scene, const Tracer& tracer, const Plan& plan) {
+CoverageGrid make_coverage_grid(const Scene& scene, const Plan& plan) {
+  static_assert(sub_points_a_side * sub_points_a_side + 5 * 5 <= max_sub_points);
+  const GridLayout& layout = plan.grid;
+  const int edge_points = edge_sub_points_a_side(plan.request);
+  ParityRaster parity(layout);
+  for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+    const auto& corners = scene.triangles[t];
+    if (!scene.triangle_is_ground[t])
+      parity.add(scene.vertices[corners[0]], scene.vertices[corners[1]], scene.vertices[corners[2]]);
+  }
   CoverageGrid grid;
-  grid.layout = plan.grid;
-  const bool edges = plan.request.diffraction && plan.request.max_diffractions > 0 && plan.request.depth > 0;
-  const PointCounts counts{sub_points_a_side(plan.request.rays), edges ? edge_sub_points_a_side(plan.request.rays) : 0};
-  const std::vector<GaussPoint> fine = gauss_legendre(counts.fine), coarse = gauss_legendre(counts.edge);
-  const std::vector<std::uint8_t> crossed = crossed_cells(scene, plan.grid);
-  constexpr std::size_t block_size = 1024;
-  const std::size_t cells = plan.grid.size(), blocks = (cells + block_size - 1) / block_size;
-  std::vector<std::vector<CellPoints>> found(blocks);
-  for_each_block(blocks, plan.request.threads, [&](std::size_t block, unsigned) {
-    for (std::size_t cell = block * block_size; cell < std::min(cells, (block + 1) * block_size); ++cell) {
-      CellPoints& here = found[block].emplace_back();
-      if (crossed[cell]) {
-        here = crossed_cell(tracer, plan.grid, cell, counts, plan.request.seed);
-        if (here.inside_fraction > 0) continue;
-      }
-      const Vec3 centre = plan.grid.centre(cell);
-      if (!crossed[cell] && tracer.inside_solid(centre)) {
-        here.inside_fraction = 1;
-        continue;
-      }
-      for (const auto* gauss : {&fine, &coarse})
-        for (const GaussPoint& v : *gauss)
-          for (const GaussPoint& u : *gauss) {
-            const double weight = 0.25 * u.weight * v.weight;
-            here.points.push_back({centre + 0.5 * plan.grid.cell * Vec3{u.position, v.position, 0},
-                                   gauss == &fine ? weight : 0, gauss == &fine ? 0 : weight});
-          }
+  grid.layout = layout;
+  add_outdoors(layout, sub_points_a_side, false, grid.sub_points);
+  add_outdoors(layout, edge_points, true, grid.sub_points);
+  const auto shared = static_cast<std::uint32_t>(grid.sub_points.size());
+  grid.inside_fraction.reserve(layout.size());
+  grid.ranges.reserve(layout.size());
+  for (std::size_t cell = 0; cell < layout.size(); ++cell) {
+    const std::uint64_t inside = parity.bits(cell);
+    grid.inside_fraction.push_back(std::popcount(inside) / 64.0);
+    const auto first = static_cast<std::uint32_t>(grid.sub_points.size());
+    if (inside == 0) {
+      grid.ranges.push_back({0, shared});
+      continue;
     }
-  });
-  grid.begins.push_back(0);
-  for (const auto& block : found)
-    for (const CellPoints& cell : block) {
-      grid.inside_fraction.push_back(cell.inside_fraction);
-      grid.sub_points.insert(grid.sub_points.end(), cell.points.begin(), cell.points.end());
-      grid.begins.push_back(grid.sub_points.size());
+    if (inside != ~std::uint64_t(0)) {
+      add_partly_inside(layout, cell, inside, sub_points_a_side, false, plan.request.seed, grid.sub_points);
+      add_partly_inside(layout, cell, inside, edge_points, true, plan.request.seed, grid.sub_points);
     }
+    grid.ranges.push_back({first, static_cast<std::uint32_t>(grid.sub_points.size()) - first});
+  }
   return grid;
 }
 

@@ -63,7 +63,7 @@ class CellEvaluator {
         if (!(pairs[p].visible >> i & 1)) continue;
         if (arrivals_.size() <= count) arrivals_.emplace_back();
         Arrival& arrival = arrivals_[count];
-        if (!unfolded[p].solve(points[i].position, wavelength_, arrival.geometry)) continue;
+        if (!unfolded[p].solve(grid_.layout.centre(cell) + points[i].offset, wavelength_, arrival.geometry)) continue;
         arrival.sequence = pairs[p].sequence;
         arrival.hash = discovered_.sequences.hash(pairs[p].sequence);
         arrival.interactions = discovered_.sequences[pairs[p].sequence];

@@ -71,26 +71,55 @@ Complex end_weight(const Wedge& wedge, const EdgePassage& passage, double wavele
   return weight;
 }
 
-/// True if the wave comes from another edge along a face that both bound. What arrives is then the wave and its image
-/// in one, and the edge's two terms would count it twice.
-bool grazes_common_face(const Scene& scene, Interaction before, const Wedge& wedge, const EdgePassage& passage) {
-  if (!is_edge(before)) return false;
-  const Wedge& other = scene.wedges.wedges[index_of(before)];
-  const auto bounds = [&](std::uint32_t patch) { return other.patch0 == patch || other.patchn == patch; };
-  const double grazing = 5e-3 / passage.s_in;  // rad; both edges lie on the face to the millimetres of a patch's plane
-  return (passage.phi_in < grazing && bounds(wedge.patch0)) ||
-         (passage.phi_in > wedge.exterior_angle - grazing && bounds(wedge.patchn));
+/// True if the azimuth of a way of length s from the edge runs along its face `patch`.
+bool along_face(const Wedge& wedge, std::uint32_t patch, double azimuth, double s) {
+  const double grazing = 5e-3 / s;  // rad; edges lie on their face to the millimetres of a patch's plane
+  return (patch == wedge.patch0 && azimuth < grazing) ||
+         (patch == wedge.patchn && azimuth > wedge.exterior_angle - grazing);
 }
 
-/// cos of the angle of incidence on the faces of a wedge, the mean of both legs' coefficients makes the term
-/// reciprocal.
-ReflectionCoefficients wedge_face_reflection(const Plan& plan, std::uint32_t material, std::size_t band,
-                                             double sin_beta, double azimuth_in, double azimuth_out) {
-  const auto at = [&](double azimuth) {
-    return face_reflection(plan, material, band, std::min(1.0, sin_beta * std::abs(std::sin(azimuth))));
+/// True if the wave comes from another edge along a face that both bound. What arrives is then the wave and its image
+/// in one, and the edge's two terms would count it twice. The same for both directions of the way.
+bool grazes_common_face(const Scene& scene, const EdgePassage& before, const EdgePassage& here) {
+  const Wedge& first = scene.wedges.wedges[before.wedge];
+  const Wedge& second = scene.wedges.wedges[here.wedge];
+  for (const std::uint32_t patch : {first.patch0, first.patchn})
+    if ((patch == second.patch0 || patch == second.patchn) &&
+        (along_face(first, patch, before.phi_out, before.s_out) || along_face(second, patch, here.phi_in, here.s_in)))
+      return true;
+  return false;
+}
+
+/// What a face does to a wave in the cone frames of an edge: rows β̂, φ̂ of the image wave, columns β̂, φ̂ of the incident
+/// one.
+struct Dyadic {
+  Complex bb, bp, pb, pp;
+};
+
+Dyadic image_dyadic(const Plan& plan, std::uint32_t material, std::size_t band, const Vec3& edge, const Vec3& k,
+                    const Vec3& normal) {
+  const double cosine = dot(k, normal);
+  const auto r = face_reflection(plan, material, band, std::min(1.0, std::abs(cosine)));
+  const Vec3 image = k - 2 * cosine * normal;
+  Vec3 s = cross(k, normal);
+  const double sine = norm(s);
+  s = sine > 1e-9 ? s / sine : perpendicular(normal);
+  const Vec3 p_in = cross(s, k), p_out = cross(s, image);
+  const ConeFrame in(edge, k), out(edge, image);
+  const auto element = [&](const Vec3& to, const Vec3& from) {
+    return r.te * (dot(to, s) * dot(from, s)) + r.tm * (dot(to, p_out) * dot(from, p_in));
   };
-  const ReflectionCoefficients in = at(azimuth_in), out = at(azimuth_out);
-  return {0.5 * (in.te + out.te), 0.5 * (in.tm + out.tm)};
+  return {element(out.beta, in.beta), element(out.beta, in.phi), element(out.phi, in.beta), element(out.phi, in.phi)};
+}
+
+/// The mean of the face's dyadic for the way there and, transposed, for the way back (φ̂ turns round with the ray):
+/// reciprocal, and unchanged at the reflection boundary, where both are the same.
+Dyadic reciprocal_image(const Plan& plan, std::uint32_t material, std::size_t band, const Vec3& edge, const Vec3& k_in,
+                        const Vec3& k_out, const Vec3& normal) {
+  const Dyadic there = image_dyadic(plan, material, band, edge, k_in, normal);
+  const Dyadic back = image_dyadic(plan, material, band, edge, -k_out, normal);
+  return {0.5 * (there.bb + back.bb), 0.5 * (there.bp - back.pb), 0.5 * (there.pb - back.bp),
+          0.5 * (there.pp + back.pp)};
 }
 
 /// Bound on |U| of a straight edge: its value at the boundary, its asymptote beyond (|w| decreases and stays below
@@ -180,24 +209,22 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
       };
       const Complex incident = term(Boundary::incident);
       Complex weight = end_weight(wedge, passage, wavelength, wavenumber);
-      if (i > 0 && grazes_common_face(scene, interactions[i - 1], wedge, passage)) weight *= 0.5;
+      if (i > 0 && is_edge(interactions[i - 1]) && grazes_common_face(scene, geometry.edges[edge_number - 1], passage))
+        weight *= 0.5;
       if (radio) {
         Complex beta = incident * dot(e, in.beta), phi = incident * dot(e, in.phi);
         if (faces) {
           const double n = wedge.exterior_angle;
           const Vec3 normaln = std::sin(n) * wedge.along0 - std::cos(n) * wedge.normal0;
-          const auto add_image = [&](Boundary boundary, const Vec3& normal, std::uint32_t material, double a,
-                                     double b) {
-            const auto r = wedge_face_reflection(plan, material, band, passage.sin_beta, a, b);
-            const ComplexVec3 image = reflect(e, k[i], normal, r);
-            const ConeFrame frame(wedge.direction, k[i] - 2 * dot(k[i], normal) * normal);
+          const Complex e_beta = dot(e, in.beta), e_phi = dot(e, in.phi);
+          const auto add_image = [&](Boundary boundary, const Vec3& normal, std::uint32_t material) {
+            const Dyadic d = reciprocal_image(plan, material, band, wedge.direction, k[i], k[i + 1], normal);
             const Complex u = term(boundary);
-            beta += u * dot(image, frame.beta);
-            phi += u * dot(image, frame.phi);
+            beta += u * (d.bb * e_beta + d.bp * e_phi);
+            phi += u * (d.pb * e_beta + d.pp * e_phi);
           };
-          add_image(Boundary::face0, wedge.normal0, wedge.material0, passage.phi_in, passage.phi_out);
-          if (!wedge.free_rim)
-            add_image(Boundary::facen, normaln, wedge.materialn, n - passage.phi_in, n - passage.phi_out);
+          add_image(Boundary::face0, wedge.normal0, wedge.material0);
+          if (!wedge.free_rim) add_image(Boundary::facen, normaln, wedge.materialn);
         }
         e = weight * combine(beta, out.beta, phi, out.phi);
       } else {

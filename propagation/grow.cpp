@@ -15,6 +15,8 @@
 namespace grimaldi {
 namespace {
 
+constexpr std::size_t cells_per_block = 1024;
+
 /// What one thread keeps from sequence to sequence.
 struct Workspace {
   std::vector<std::uint32_t> visited;  ///< per cell: number of the growth that visited it last
@@ -82,12 +84,25 @@ class Grower {
     if (arrive(unfolded, {}, false, work, pair, out.shadow_rays) == Answer::arrives) out.pairs.push_back(pair);
   }
 
+  /// True if one of every ninth of the cell's points (or of fewer points all) sees the transmitter.
+  bool sees_transmitter(std::size_t cell, std::uint64_t& shadow_rays) const {
+    const auto points = grid_.of(cell);
+    const Vec3 centre = grid_.layout.centre(cell);
+    const std::size_t step = points.size() < 9 ? 1 : 9;
+    for (std::size_t i = step / 2; i < points.size(); i += step) {
+      ++shadow_rays;
+      if (tracer_.visible(transmitter_.position, centre + points[i].offset)) return true;
+    }
+    return false;
+  }
+
  private:
   enum class Answer { arrives, blocked, negligible };
 
   Answer arrive(UnfoldedSequence& unfolded, std::span<const Interaction> interactions, bool may_be_negligible,
                 Workspace& work, Pair& pair, std::uint64_t& shadow_rays) const {
     const auto points = grid_.of(pair.cell);
+    const Vec3 centre = grid_.layout.centre(pair.cell);
     work.field.resize(plan_.bands());
     const double threshold = may_be_negligible ? negligible_share * known_[pair.cell] : 0;
     double power = 0;
@@ -95,7 +110,7 @@ class Grower {
     Answer answer = Answer::blocked;
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (edges && points[i].edge_weight == 0) continue;
-      if (!unfolded.solve(points[i].position, wavelength_, work.geometry)) continue;
+      if (!unfolded.solve(centre + points[i].offset, wavelength_, work.geometry)) continue;
       if (threshold > 0 && power_bound(scene_, plan_, work.geometry) < threshold) {
         // The bound is smooth: one point speaks for the cell.
         return pair.visible != 0 ? Answer::arrives : Answer::negligible;
@@ -149,6 +164,18 @@ void in_blocks(std::size_t blocks, unsigned threads, std::vector<Workspace>& spa
   }
 }
 
+/// The cells marked and the eight around each.
+std::vector<std::uint8_t> with_neighbours(const std::vector<std::uint8_t>& marked, const GridLayout& layout) {
+  std::vector<std::uint8_t> all(marked.size(), 0);
+  for (std::size_t y = 0; y < layout.ny; ++y)
+    for (std::size_t x = 0; x < layout.nx; ++x) {
+      if (!marked[y * layout.nx + x]) continue;
+      for (std::size_t j = y > 0 ? y - 1 : y; j <= std::min(y + 1, layout.ny - 1); ++j)
+        for (std::size_t i = x > 0 ? x - 1 : x; i <= std::min(x + 1, layout.nx - 1); ++i) all[j * layout.nx + i] = 1;
+    }
+  return all;
+}
+
 /// The seeds [first, last) of one sequence, and how strong the beams take it to be: in steps of 10 dB, 0 the strongest.
 struct SeededSequence {
   std::size_t first, last;
@@ -181,15 +208,25 @@ void grow(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_
   const auto learn = [&](std::size_t from) {
     for (std::size_t i = from; i < grown.pairs.size(); ++i) known[grown.pairs[i].cell] += grown.pairs[i].power;
   };
-  constexpr std::size_t cells_per_block = 1024;
   if (plan.request.direct && first_sequence == 0) {
-    const std::size_t cells = grid.layout.size();
-    in_blocks((cells + cells_per_block - 1) / cells_per_block, threads, spaces, stop, grown,
-              [&](std::size_t block, Workspace& work, BlockPairs& out) {
-                const std::size_t end = std::min(cells, (block + 1) * cells_per_block);
-                for (std::size_t cell = block * cells_per_block; cell < end; ++cell)
-                  grower.direct(static_cast<std::uint32_t>(cell), work, out);
-              });
+    // A few points of each cell first; all of them where one of those, or a neighbour's, sees the transmitter.
+    const std::size_t cells = grid.layout.size(), blocks = (cells + cells_per_block - 1) / cells_per_block;
+    std::vector<std::uint8_t> near(cells, 0);
+    std::vector<std::uint64_t> rays(blocks, 0);
+    for_each_block(
+        blocks, threads,
+        [&](std::size_t block, unsigned) {
+          for (std::size_t cell = block * cells_per_block; cell < std::min(cells, (block + 1) * cells_per_block);
+               ++cell)
+            near[cell] = grower.sees_transmitter(cell, rays[block]);
+        },
+        stop);
+    for (const std::uint64_t asked : rays) grown.shadow_rays += asked;
+    near = with_neighbours(near, grid.layout);
+    in_blocks(blocks, threads, spaces, stop, grown, [&](std::size_t block, Workspace& work, BlockPairs& out) {
+      for (std::size_t cell = block * cells_per_block; cell < std::min(cells, (block + 1) * cells_per_block); ++cell)
+        if (near[cell]) grower.direct(static_cast<std::uint32_t>(cell), work, out);
+    });
     learn(0);
   }
   const std::vector<Seed>& seeds = discovered.seeds;

@@ -59,7 +59,7 @@ Result simulate(const Scene& scene, const Tracer& tracer, const Plan& plan, cons
     CoverageGrid grid;
     if (plan.request.coverage) {
       const StageClock grid_clock(figures.grow_seconds);
-      grid = make_coverage_grid(scene, tracer, plan);
+      grid = make_coverage_grid(scene, plan);
       result.coverage = empty_map(plan, grid);
     }
     result.profiles = empty_profiles(plan);

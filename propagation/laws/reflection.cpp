@@ -11,11 +11,13 @@ using Complex = std::complex<double>;
 
 /// √(η − sin²θ) on the sheet of decaying waves (negative imaginary part).
 Complex refracted_cosine(Complex permittivity, double cos_incidence) {
-  const Complex root = std::sqrt(permittivity - (1.0 - cos_incidence * cos_incidence));
+  // η − sin²θ in the form that keeps the digits of a small cosine.
+  const Complex root = std::sqrt((permittivity - 1.0) + cos_incidence * cos_incidence);
   return root.imag() > 0 ? -root : root;
 }
 
 ReflectionCoefficients interface_reflection(Complex permittivity, double cos_incidence, Complex root) {
+  if (permittivity == 1.0) return {0.0, 0.0};  // no interface, at grazing incidence too
   return {(cos_incidence - root) / (cos_incidence + root),
           (permittivity * cos_incidence - root) / (permittivity * cos_incidence + root)};
 }
@@ -24,15 +26,12 @@ ReflectionCoefficients interface_reflection(Complex permittivity, double cos_inc
 
 ReflectionCoefficients half_space_reflection(Complex permittivity, double cos_incidence) {
   GRIMALDI_EXPECT(cos_incidence >= 0 && cos_incidence <= 1);
-  // At exactly grazing incidence both numerators and denominators are the root alone.
-  if (cos_incidence == 0) return {-1.0, -1.0};
   return interface_reflection(permittivity, cos_incidence, refracted_cosine(permittivity, cos_incidence));
 }
 
 ReflectionCoefficients slab_reflection(Complex permittivity, double thickness, double wavenumber,
                                        double cos_incidence) {
   GRIMALDI_EXPECT(thickness >= 0 && wavenumber > 0);
-  if (cos_incidence == 0) return {-1.0, -1.0};
   if (std::isinf(thickness)) return half_space_reflection(permittivity, cos_incidence);
   const Complex root = refracted_cosine(permittivity, cos_incidence);
   const ReflectionCoefficients face = interface_reflection(permittivity, cos_incidence, root);
@@ -42,6 +41,7 @@ ReflectionCoefficients slab_reflection(Complex permittivity, double thickness, d
   const double half_sine = std::sin(exponent.imag() / 2);
   const Complex one_minus(-std::expm1(exponent.real()) + 2 * decay * half_sine * half_sine,
                           -decay * std::sin(exponent.imag()));
+  if (one_minus == 0.0) return {0.0, 0.0};  // no thickness
   const auto slab = [&](Complex r) { return r * one_minus / ((1.0 - r) * (1.0 + r) + r * r * one_minus); };
   return {slab(face.te), slab(face.tm)};
 }

@@ -25,7 +25,7 @@ SampledRun sampled(const Scene& scene, const PlanDescription& description, std::
   Diagnostics diagnostics;
   const Plan plan = make_plan(description, scene, tracer, diagnostics);
   diagnostics.throw_if_errors();
-  SampledRun run{{}, make_coverage_grid(scene, tracer, plan)};
+  SampledRun run{{}, make_coverage_grid(scene, plan)};
   run.layer = sample_diffraction(scene, tracer, plan, 0, run.grid, samples, 0, classes);
   return run;
 }

@@ -84,8 +84,9 @@ TEST(StandardErrorSlow, CoversWhatDiffractionMisses) {
   const auto found = deviations(true, 4e6);
   EXPECT_GE(honest_share(found[2]), 0.9);
   EXPECT_GE(honest_share(found[1]), 0.8);
-  // The points of a cell where edges are asked are 2 × 2 for all three budgets: that part of the error stays.
-  EXPECT_LT(found[2].typical, 0.9 * found[0].typical);
+  // The points of a cell where edges are asked are 2 × 2 for all three budgets, and that part of the error is the
+  // largest: it falls, but not as one over the root of the rays.
+  EXPECT_LT(found[2].typical, found[0].typical);
   EXPECT_LE(found[2].empty, found[0].empty);
 }
 
