@@ -105,28 +105,29 @@ class Grower {
     const Vec3 centre = grid_.layout.centre(pair.cell);
     work.field.resize(plan_.bands());
     const double threshold = may_be_negligible ? negligible_share * known_[pair.cell] : 0;
-    double power = 0;
+    double power = 0, strength = 0;
     const bool edges = count_edges(interactions) > 0;
-    Answer answer = Answer::blocked;
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (edges && points[i].edge_weight == 0) continue;
       if (!unfolded.solve(centre + points[i].offset, wavelength_, work.geometry)) continue;
       if (threshold > 0 && power_bound(scene_, plan_, work.geometry) < threshold) {
         // The bound is smooth: one point speaks for the cell.
-        return pair.visible != 0 ? Answer::arrives : Answer::negligible;
+        if (pair.visible == 0) return Answer::negligible;
+        break;
       }
       if (!connected(scene_, tracer_, interactions, work.geometry, shadow_rays)) continue;
-      path_field(scene_, plan_, transmitter_, interactions, work.geometry, work.field);
-      const double here = received_power(work.field[0], Polarisation::both);
-      if (here < threshold) {
-        answer = Answer::negligible;
-        continue;
+      if (pair.visible == 0) {
+        // The strength at the first point that sees the path speaks for the cell; `evaluate` takes every point for
+        // itself.
+        path_field(scene_, plan_, transmitter_, interactions, work.geometry, work.field);
+        strength = received_power(work.field[0], Polarisation::both);
+        if (strength < threshold) return Answer::negligible;
       }
       pair.visible |= std::uint64_t(1) << i;
-      power += (edges ? points[i].edge_weight : points[i].weight) * here;
+      power += (edges ? points[i].edge_weight : points[i].weight) * strength;
     }
     pair.power = static_cast<float>(power);
-    return pair.visible != 0 ? Answer::arrives : answer;
+    return pair.visible != 0 ? Answer::arrives : Answer::blocked;
   }
 
   void ask_neighbours(std::uint32_t cell, Workspace& work) const {

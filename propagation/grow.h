@@ -19,7 +19,7 @@ struct Pair {
   std::uint32_t cell, sequence;
   std::uint64_t visible;  ///< sub-points (bits) where it arrives; a path with an edge is asked at edges' points alone
   std::uint32_t passes;   ///< passes (bits) that found the patch of cells that this one belongs to
-  float power;            ///< mean over the cell of its power at the first band, 1 or m⁻²
+  float power;            ///< about its mean power over the cell at the first band, 1 or m⁻²
 };
 
 struct Grown {
@@ -29,9 +29,9 @@ struct Grown {
 };
 
 /// Share of a cell's power from stronger sequences below which one sequence of two and more interactions with an edge
-/// is left out of the cell (and does not grow through it): −35 dB. In Etoile a street point has some 2,000 pairs of
+/// is left out of the cell (and does not grow through it): −30 dB. In Etoile a street point has some 2,000 pairs of
 /// edges, of which those below this bound carry 0.1 dB together.
-inline constexpr double negligible_share = 3.2e-4;
+inline constexpr double negligible_share = 1e-3;
 
 /// Grows the sequences of `discovered` from number `first_sequence` on and adds them to `grown`, strongest first by the
 /// beams' estimate, in stages of 10 dB: a stage knows the power that the ones before it brought to each cell

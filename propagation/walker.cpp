@@ -14,7 +14,7 @@ namespace grimaldi {
 namespace {
 
 /// Wedges at which a beam that has met faces alone is aimed from each patch that it hits.
-constexpr int aims_before_edge = 6;
+constexpr int aims_before_edge = 3;
 /// Rims of a blocking patch and of its neighbours tried for a way around it.
 constexpr int rims_tried = 4;
 /// Of the azimuth of a wave that runs along a face, rad.
@@ -29,7 +29,7 @@ constexpr double footprint_share = 0.75;
 constexpr double coarse_spacing = 0.014;
 /// Beams that leave an edge for one that met it: the exterior of an edge is a whole fan of directions. More where the
 /// transmitter itself sees the edge: those waves are the strong ones.
-constexpr int beams_per_first_edge = 16, beams_per_edge = 8;
+constexpr int beams_per_first_edge = 16, beams_per_edge = 6;
 
 struct Beam {
   Vec3 origin, direction;
