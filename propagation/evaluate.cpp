@@ -12,6 +12,7 @@
 #include "propagation/composite.h"
 #include "propagation/fermat.h"
 #include "propagation/field.h"
+#include "propagation/sample.h"
 
 namespace grimaldi {
 namespace {
@@ -229,6 +230,24 @@ void evaluate(const Scene& scene, const Plan& plan, std::size_t transmitter, con
     const double cosine = std::max(std::abs(way.z) / norm(way), 1e-3);
     map.detection_limit[transmitter * cells + cell] =
         3 * unit * 4 * pi / (plan.request.rays * grid.layout.cell * grid.layout.cell * cosine);
+  }
+}
+
+void add_sampled_diffraction(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
+                             const CoverageGrid& grid, CoverageMap& map, const std::atomic<bool>* stop) {
+  const std::size_t cells = grid.layout.size(), bands = plan.bands();
+  for (std::size_t band = 0; band < bands; ++band) {
+    const SampledLayer layer = sample_diffraction(scene, tracer, plan, transmitter, grid,
+                                                  static_cast<std::uint64_t>(plan.request.rays), band, {}, stop);
+    if (stop && *stop) return;
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+      if (grid.of(cell).empty()) continue;
+      const std::size_t at = (transmitter * bands + band) * cells + cell;
+      map.mechanism_gain[((transmitter * mechanism_count + diffraction_layer) * bands + band) * cells + cell] +=
+          layer.gain[cell];
+      map.path_gain[at] += layer.gain[cell];
+      map.standard_error[at] = std::hypot(map.standard_error[at], layer.standard_error[cell]);
+    }
   }
 }
 

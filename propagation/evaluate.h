@@ -9,6 +9,7 @@
 #include "propagation/grow.h"
 #include "propagation/plan.h"
 #include "propagation/result.h"
+#include "propagation/tracer.h"
 
 namespace grimaldi {
 
@@ -28,5 +29,12 @@ CoverageMap empty_map(const Plan& plan, const CoverageGrid& grid);
 void evaluate(const Scene& scene, const Plan& plan, std::size_t transmitter, const CoverageGrid& grid,
               const Discovered& discovered, const std::vector<Pair>& pairs, CoverageMap& map,
               const std::function<void(double)>& progress, const std::atomic<bool>* stop);
+
+/// The diffraction layer of transmitter `transmitter` by the sampled estimator instead (the model fsd-published, which
+/// has no closed form at a point): its gain joins layer and path_gain, its error the standard error in squares; nothing
+/// of it interferes. As many samples as the plan has rays; paths with one edge. `map` holds the run without
+/// diffraction.
+void add_sampled_diffraction(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
+                             const CoverageGrid& grid, CoverageMap& map, const std::atomic<bool>* stop);
 
 }  // namespace grimaldi

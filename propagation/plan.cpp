@@ -170,6 +170,12 @@ Plan make_plan(const PlanDescription& description, const Scene& scene, const Tra
           file, 0, option, "the transmitter is below the ground",
           fmt::format("z = {:g} m, the lowest surface is at {:g} m", transmitter.position.z, scene.ground));
   }
+  if (description.diffraction && description.diffraction_model == DiffractionModel::fsd_published &&
+      !description.receivers.empty())
+    diagnostics.error(description.scenario_file.string(), 0, "propagation.diffraction",
+                      "fsd-published has no point receivers in this version",
+                      "the published method is sampled over the cells of a map; it has no closed form at a point",
+                      "leave the receivers out, or use diffraction = \"fsd\"");
   for (const Receiver& receiver : description.receivers) {
     if (!is_finite(receiver.position)) continue;
     const std::string option = "receiver." + receiver.name + ".position";

@@ -46,8 +46,13 @@ void add_flux(FluxLedger& ledger, const FluxLedger& sums, double share) {
 
 }  // namespace
 
-Result simulate(const Scene& scene, const Tracer& tracer, const Plan& plan, const ProgressReport& progress,
+Result simulate(const Scene& scene, const Tracer& tracer, const Plan& asked, const ProgressReport& progress,
                 const std::atomic<bool>* stop) {
+  // The published BSDF has no closed form at a point: its layer is sampled, and what is connected goes without edges.
+  const bool sampled = asked.request.diffraction && asked.request.diffraction_model == DiffractionModel::fsd_published;
+  Plan connected = asked;
+  if (sampled) connected.request.diffraction = false;
+  const Plan& plan = connected;
   Result result;
   RunFigures& figures = result.figures;
   figures.threads = plan.request.threads ? plan.request.threads : hardware_threads();
@@ -104,6 +109,10 @@ Result simulate(const Scene& scene, const Tracer& tracer, const Plan& plan, cons
       if (plan.request.coverage && !stopped()) {
         const StageClock stage(figures.evaluate_seconds);
         evaluate(scene, plan, t, grid, discovered, grown.pairs, *result.coverage, report("evaluate", 0.8, 1), stop);
+        if (sampled && !stopped()) {
+          add_sampled_diffraction(scene, tracer, asked, t, grid, *result.coverage, stop);
+          figures.rays += static_cast<std::uint64_t>(plan.request.rays);
+        }
       }
       if (!plan.request.receivers.empty() && !stopped()) {
         const StageClock stage(figures.evaluate_seconds);

@@ -76,10 +76,10 @@ TEST(StandardErrorSlow, CoversWhatReflectionMisses) {
   const auto found = deviations(false, 1.6e7);
   EXPECT_GE(honest_share(found[2]), 0.9);
   EXPECT_GE(honest_share(found[1]), 0.8);
-  // More rays, less error: of the cells that are off by 0.1 dB or empty, 16 times the rays leave a quarter (one over
-  // the root), and half is granted to chance: they are some dozens.
-  EXPECT_LE(found[2].wrong, 0.5 * double(found[0].wrong));
-  EXPECT_LE(found[2].empty, 0.5 * double(found[0].empty));
+  // More rays find more: 16 times the rays leave a quarter of the empty cells (one over the root), and half is granted
+  // to chance: they are a few. What a crossed cell owes to the draw of its points does not depend on the rays.
+  EXPECT_LE(double(found[2].empty), 0.5 * double(found[0].empty));
+  EXPECT_LE(found[2].wrong, found[0].wrong);
 }
 
 TEST(StandardErrorSlow, CoversWhatDiffractionMisses) {
