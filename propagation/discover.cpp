@@ -112,9 +112,11 @@ Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, 
     const Launcher launcher(request.seed, static_cast<std::uint32_t>(pass), count);
     const double spacing = std::sqrt(4 * pi / double(count));
     const std::uint64_t blocks = (count + block_size - 1) / block_size;
-    // One beam a pass to each wedge, or to as many as there are rays in the pass.
+    // One beam to edges for 8 launched, at least one to each wedge, or to as many wedges as there are rays in the pass.
     const std::uint64_t wedges = request.diffraction && request.max_diffractions > 0 ? scene.wedges.wedges.size() : 0;
-    const std::uint64_t aimed = std::min(wedges, count),
+    const std::uint64_t aimed = wedges == 0
+                                    ? 0
+                                    : std::min(wedges, count) * std::max<std::uint64_t>(1, count / (8 * wedges)),
                         aimed_blocks = (aimed + aimed_block_size - 1) / aimed_block_size;
     for (std::uint64_t group = 0; group < blocks + aimed_blocks && !(stop && *stop); group += blocks_at_a_time) {
       std::vector<BlockRecords> records(std::min(blocks_at_a_time, blocks + aimed_blocks - group));
@@ -127,11 +129,12 @@ Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, 
             if (block >= blocks) {
               const std::uint64_t first = (block - blocks) * aimed_block_size;
               for (std::uint64_t i = first; i < std::min(aimed, first + aimed_block_size); ++i) {
-                const std::uint64_t wedge = aimed == wedges ? i : (pass * aimed + i) % wedges;
-                const double along =
-                    (double(pass) + uniform4(request.seed, aim_stream, wedge, std::uint32_t(pass))[0]) / double(passes);
+                const std::uint64_t wedge = aimed >= wedges ? i % wedges : (pass * aimed + i) % wedges;
+                const double along = (double(pass) + uniform4(request.seed, aim_stream, aimed >= wedges ? i : wedge,
+                                                              std::uint32_t(pass))[0]) /
+                                     double(passes);
                 walker.walk_to_edge(request.transmitters[transmitter].position, std::uint32_t(wedge), along,
-                                    ~(pass << 40 | wedge));
+                                    ~(pass << 40 | (aimed >= wedges ? i : wedge)));
               }
               return;
             }

@@ -43,12 +43,13 @@ struct Search {
 };
 
 /// Launches the plan's rays from transmitter `transmitter` in plan.request.passes passes.
-/// * A beam reflects at every face up to the depth. Each pass also aims a beam at a point of each wedge (at most
-///   as many as it launches): those that the transmitter sees are met at all their length.
+/// * A beam reflects at every face up to the depth. Each pass also aims beams at points of the wedges (one for 8
+///   launched, at least one to each wedge, at most as many as there are rays): those that the transmitter sees are met
+///   at all their length.
 /// * From an edge met leaves a fan (16 beams for a first edge, else 6) on the Keller cone, azimuths drawn half
-///   uniformly over the exterior and half close to the shadow and reflection boundaries; they go on in the same way. After a
-///   reflection or an edge a beam meets the edges of the triangle that it hits within its footprint (¾ of the spacing
-///   of the beams at its length, at least 14 mrad), and is aimed at one wedge (three while it has met faces
+///   uniformly over the exterior and half close to the shadow and reflection boundaries; they go on in the same way.
+///   After a reflection or an edge a beam meets the edges of the triangle that it hits within its footprint (¾ of the
+///   spacing of the beams at its length, at least 14 mrad), and is aimed at one wedge (three while it has met faces
 ///   alone) of that patch or of its neighbours. What blocks a beam aimed at a wedge is gone around by one of its rims,
 ///   as one more edge.
 /// * A segment of a beam names the cell that it crosses and one cell, drawn at random, over or under which it passes: a

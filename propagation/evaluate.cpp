@@ -23,11 +23,11 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 /// Sums of one cell and band.
 struct CellSums {
   std::array<double, mechanism_count> layers{};
-  double delay = 0, delay2 = 0, power = 0;     ///< power-weighted moments of the delay about the first arrival
-  double variance = 0;                         ///< from sub-points
-  double interference = 0, interference2 = 0;  ///< Σ w I, Σ w I² over the edges' points
-  double edge_points_power = 0;                ///< Σ w |h|² of all paths over the edges' points
-  std::array<double, 32> lone{};               ///< gain that one pass alone found
+  double delay = 0, delay2 = 0, power = 0;  ///< power-weighted moments of the delay about the first arrival
+  double fine2 = 0, edge2 = 0;              ///< Σ w x² of a point's power x, of each set
+  double interference = 0;                  ///< Σ w I over the edges' points
+  double edge_points_power = 0;             ///< Σ w |h|² of all paths over the edges' points
+  std::array<double, 32> lone{};            ///< gain that one pass alone found
 };
 
 class CellEvaluator {
@@ -57,9 +57,12 @@ class CellEvaluator {
     unfolded.clear();
     for (const Pair& pair : pairs)
       unfolded.emplace_back(scene_, transmitter.position, discovered_.sequences[pair.sequence]);
-    partial_.assign(pairs.size() * plan_.bands(), 0);
+    fine_.resize(plan_.bands());
+    edge_.resize(plan_.bands());
     for (std::size_t i = 0; i < points.size(); ++i) {
       std::size_t count = 0;
+      std::fill(fine_.begin(), fine_.end(), 0.0);
+      std::fill(edge_.begin(), edge_.end(), 0.0);
       for (std::size_t p = 0; p < pairs.size(); ++p) {
         if (!(pairs[p].visible >> i & 1)) continue;
         if (arrivals_.size() <= count) arrivals_.emplace_back();
@@ -74,17 +77,19 @@ class CellEvaluator {
         const double delay = arrival.geometry.length / plan_.speed - reference_delay;
         for (std::size_t band = 0; band < plan_.bands(); ++band) {
           const double weight = layer == diffraction_layer ? points[i].edge_weight : points[i].weight;
-          const double power = weight * received_power(arrival.field[band], polarisation);
+          const double here = received_power(arrival.field[band], polarisation), power = weight * here;
+          (layer == diffraction_layer ? edge_ : fine_)[band] += here;
           CellSums& sums = sums_[band];
           sums.layers[layer] += power;
           sums.power += power;
           sums.delay += power * delay;
           sums.delay2 += power * delay * delay;
-          partial_[p * plan_.bands() + band] += power;
           if (std::has_single_bit(pairs[p].passes)) sums.lone[std::countr_zero(pairs[p].passes)] += power;
         }
         ++count;
       }
+      for (std::size_t band = 0; band < plan_.bands(); ++band)
+        sums_[band].fine2 += points[i].weight * fine_[band] * fine_[band];
       if (points[i].edge_weight == 0) continue;
       composite_.interference({arrivals_.data(), count}, polarisation, interference_);
       for (std::size_t band = 0; band < plan_.bands(); ++band) {
@@ -92,36 +97,28 @@ class CellEvaluator {
         for (std::size_t a = 0; a < count; ++a)
           sums_[band].edge_points_power +=
               points[i].edge_weight * received_power(arrivals_[a].field[band], polarisation);
-        sums_[band].interference2 += points[i].edge_weight * interference_[band] * interference_[band];
+        const double here = edge_[band] + interference_[band];
+        sums_[band].edge2 += points[i].edge_weight * here * here;
       }
     }
-    for (std::size_t p = 0; p < pairs.size(); ++p) add_partial_visibility(p, pairs[p], points);
-    store(cell, points, reference_delay);
+    store(cell, pairs, points, reference_delay);
   }
 
  private:
-  /// A path that only some of its sub-points see: the spread of the yes and no.
-  void add_partial_visibility(std::size_t p, const Pair& pair, std::span<const SubPoint> points) {
-    const bool edges = count_edges(discovered_.sequences[pair.sequence]) > 0;
-    double seen = 0;  // share of the cell's weight that sees the path
-    int m = 0, n = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const double weight = edges ? points[i].edge_weight : points[i].weight;
-      if (weight == 0) continue;
-      ++n;
-      if (pair.visible >> i & 1) seen += weight, ++m;
-    }
-    if (m == 0 || m == n) return;
-    const double share = (m + 0.5) / (n + 1);
-    for (std::size_t band = 0; band < plan_.bands(); ++band) {
-      const double where_seen = partial_[p * plan_.bands() + band] / seen;
-      sums_[band].variance += where_seen * where_seen * share * (1 - share) / n;
-    }
+  /// True if the fine points are no smooth quadrature: the cell is crossed, or a path without an edge ends inside it.
+  bool broken(std::size_t cell, std::span<const Pair> pairs, std::span<const SubPoint> points) const {
+    if (grid_.inside_fraction[cell] > 0) return true;
+    std::uint64_t fine = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) fine |= std::uint64_t(points[i].weight > 0) << i;
+    for (const Pair& pair : pairs)
+      if (count_edges(discovered_.sequences[pair.sequence]) == 0 && (pair.visible & fine) != fine) return true;
+    return false;
   }
 
-  void store(std::size_t cell, std::span<const SubPoint> points, double reference_delay) {
-    double edge_points = 0;
-    for (const SubPoint& point : points) edge_points += point.edge_weight > 0;
+  void store(std::size_t cell, std::span<const Pair> pairs, std::span<const SubPoint> points, double reference_delay) {
+    double edge_points = 0, fine_points = 0;
+    for (const SubPoint& point : points) edge_points += point.edge_weight > 0, fine_points += point.weight > 0;
+    const bool fine_counts = broken(cell, pairs, points);
     const std::size_t cells = grid_.layout.size(), bands = plan_.bands();
     for (std::size_t band = 0; band < bands; ++band) {
       CellSums& sums = sums_[band];
@@ -142,12 +139,19 @@ class CellEvaluator {
         const double off = sums.lone[static_cast<std::size_t>(i)] - lone / passes;
         squares += off * off;
       }
-      const double fringe_variance =
-          edge_points > 0
-              ? scale * scale * std::max(0.0, sums.interference2 - sums.interference * sums.interference) / edge_points
-              : 0;
+      // Of few points the spread itself is uncertain: 2 of these errors cover 95 % as Student's distribution has it.
+      const auto spread = [](double squares2, double mean, double n) {
+        if (n < 1) return 0.0;
+        constexpr double half_quantile[] = {6.35, 6.35, 2.15, 1.59, 1.39, 1.29, 1.22, 1.18, 1.15};
+        const double student = n < 10 ? half_quantile[static_cast<std::size_t>(n) - 1] : 1.0;
+        return student * student * std::max(0.0, squares2 - mean * mean) / std::max(1.0, n - 1);
+      };
+      const double edge_mean = sums.layers[diffraction_layer] + sums.interference;
+      const double fine_mean = sums.power - sums.layers[diffraction_layer];
+      const double variance =
+          spread(sums.edge2, edge_mean, edge_points) + (fine_counts ? spread(sums.fine2, fine_mean, fine_points) : 0);
       map_.path_gain[at] = gain;
-      map_.standard_error[at] = std::sqrt((passes - 1) / passes * squares + sums.variance + fringe_variance);
+      map_.standard_error[at] = std::sqrt((passes - 1) / passes * squares + variance);
       map_.bias[at] = (passes - 1) / passes * lone;
       if (sums.power > 0) {
         const double mean = sums.delay / sums.power;
@@ -166,7 +170,7 @@ class CellEvaluator {
   const double wavelength_;
   CompositeSum composite_;
   std::vector<CellSums> sums_;
-  std::vector<double> interference_, partial_;
+  std::vector<double> interference_, fine_, edge_;
   std::vector<UnfoldedSequence> unfolded_;
   std::vector<Arrival> arrivals_;
 };

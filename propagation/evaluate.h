@@ -17,15 +17,19 @@ namespace grimaldi {
 CoverageMap empty_map(const Plan& plan, const CoverageGrid& grid);
 
 /// Fills transmitter `transmitter` of `map`.
-/// path_gain = Σ w_i Σ_paths |h|² over the cell's sub-points i, times 1 + interference/power over the points of edges;
-/// layers by `mechanism_of`; delays weighted by the power of the paths. standard_error² = jackknife over passes +
-/// sub-points. Jackknife (delete one pass of B): with u_i the gain that pass i alone found, (B−1)/B Σ(u_i − ū)².
-/// Sub-points: a path that m of n sub-points see, power P there, adds P² p(1−p)/n with p = (m+½)/(n+1) where 0 < m < n;
-/// the interference adds its variance over the sub-points/n. bias = (B−1)/B Σ u_i: the jackknife's estimate of what no
-/// pass has found yet. detection_limit = 3·(4π/(N A cos θ))·(λ/4π)² (sound: 1/4π for (λ/4π)²), N rays, cell area A, θ
-/// the angle of the straight line from the transmitter to the cell's normal: a lossless path of that gain that fills
-/// the cell is crossed by 3 beams in the mean, so it is missed with a chance of e^{−3} = 5 %. Tiles of cells, each
-/// owned by one thread; sums in the order of the sequences: the same bits on any number of threads.
+/// * path_gain = Σ w_i Σ_paths |h|² over the cell's sub-points i, times 1 + interference/power over the points of
+/// edges;
+///   layers by `mechanism_of`; delays weighted by the power of the paths.
+/// * standard_error² = passes + sub-points. Passes (jackknife, one of B left out): with u_i the gain that pass i alone
+///   found, (B−1)/B Σ(u_i − ū)². Sub-points: what edges bring to a point, interference included, adds its variance over
+///   the n points/(n − 1); what comes without an edge does so where a wall crosses the cell or such a path ends inside
+///   it (elsewhere the quadrature is exact). Of few points with Student's factor, so that 2 standard errors cover 95 %.
+/// * bias = (B−1)/B Σ u_i: the jackknife's estimate of what no pass has found yet.
+/// * detection_limit = 3·(4π/(N A cos θ))·(λ/4π)² (sound: 1/4π for (λ/4π)²), N rays, cell area A, θ the angle of the
+///   straight line from the transmitter to the cell's normal: a lossless path of that gain that fills the cell is
+///   crossed by 3 beams in the mean, so it is missed with a chance of e^{−3} = 5 %.
+/// Tiles of cells, each owned by one thread; sums in the order of the sequences: the same bits on any number of
+/// threads.
 void evaluate(const Scene& scene, const Plan& plan, std::size_t transmitter, const CoverageGrid& grid,
               const Discovered& discovered, const std::vector<Pair>& pairs, CoverageMap& map,
               const std::function<void(double)>& progress, const std::atomic<bool>* stop);
