@@ -8,7 +8,8 @@ target_compile_options(grimaldi_flags INTERFACE
   -march=${GRIMALDI_ARCH} -ffp-contract=off -fcx-fortran-rules)
 target_include_directories(grimaldi_flags INTERFACE ${PROJECT_SOURCE_DIR})
 if(GRIMALDI_SANITIZE)
-  target_compile_options(grimaldi_flags INTERFACE -fsanitize=${GRIMALDI_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  # With sanitizers g++ 12 warns of the standard library's own temporaries.
+  target_compile_options(grimaldi_flags INTERFACE -Wno-maybe-uninitialized -fsanitize=${GRIMALDI_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(grimaldi_flags INTERFACE -fsanitize=${GRIMALDI_SANITIZE})
 endif()
 
