@@ -155,7 +155,60 @@ void CompositeSum::span_tree() {
   }
 }
 
-void CompositeSum::interference(std::span<const Arrival> arrivals, Polarisation polarisation, std::span<double> out) {
+double CompositeSum::at_the_point(std::span<const Arrival> arrivals, std::size_t band, Polarisation polarisation) {
+  // From the leaves: a node's sum is its own wave and its branches' sums, each times the weight of its tie.
+  double cross_terms = 0;
+  sums_.assign(arrivals_ + absent_, {});
+  for (std::size_t a = 0; a < arrivals_; ++a) sums_[a] = arrivals[a].field[band];
+  for (std::size_t i = branches_.size(); i-- > 0;) {
+    const Branch& branch = branches_[i];
+    if (branch.parent == no_index) continue;
+    const double weight = weights_[branch.weights + band];
+    auto& into = sums_[branch.parent];
+    const std::array<std::complex<double>, 2> part{weight * sums_[branch.node][0], weight * sums_[branch.node][1]};
+    cross_terms += 2 * correlation(into, part, polarisation);
+    for (std::size_t p = 0; p < 2; ++p) into[p] += part[p];
+  }
+  return cross_terms;
+}
+
+double CompositeSum::over_a_square(std::span<const Arrival> arrivals, std::size_t band, Polarisation polarisation,
+                                   double extent) {
+  const auto direction = [&](std::uint32_t a) {
+    const PathGeometry& g = arrivals[a].geometry;
+    return normalized(g.points[g.count - 1] - g.points[g.count - 2]);
+  };
+  const auto sinc = [](double x) { return std::abs(x) < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x; };
+  const double scale = 0.5 * plan_->wavenumber[band] * extent;
+  double cross_terms = 0;
+  place_.resize(arrivals_ + absent_);
+  for (std::size_t begin = 0, end = 0; begin < branches_.size(); begin = end) {
+    for (end = begin + 1; end < branches_.size() && branches_[end].parent != no_index;) ++end;
+    const std::size_t size = end - begin;
+    gamma_.assign(size * size, 1);
+    for (std::size_t i = 0; i < size; ++i) {
+      const Branch& here = branches_[begin + i];
+      place_[here.node] = static_cast<std::uint32_t>(i);
+      if (i == 0) continue;
+      const std::size_t parent = place_[here.parent];
+      const double weight = weights_[here.weights + band];
+      const Vec3 own = here.node < arrivals_ ? direction(here.node) : Vec3{};
+      for (std::size_t j = 0; j < i; ++j) {
+        const double gamma = weight * gamma_[parent * size + j];
+        gamma_[i * size + j] = gamma_[j * size + i] = gamma;
+        const std::uint32_t other = branches_[begin + j].node;
+        if (here.node >= arrivals_ || other >= arrivals_ || gamma == 0) continue;
+        const Vec3 apart = scale * (own - direction(other));
+        cross_terms += 2 * gamma * sinc(apart.x) * sinc(apart.y) *
+                       correlation(arrivals[here.node].field[band], arrivals[other].field[band], polarisation);
+      }
+    }
+  }
+  return cross_terms;
+}
+
+void CompositeSum::interference(std::span<const Arrival> arrivals, Polarisation polarisation, std::span<double> out,
+                                double extent) {
   std::fill(out.begin(), out.end(), 0.0);
   ties_.clear();
   weights_.clear();
@@ -168,18 +221,8 @@ void CompositeSum::interference(std::span<const Arrival> arrivals, Polarisation 
   tie_corners(arrivals);
   span_tree();
   for (std::size_t band = 0; band < plan_->bands(); ++band) {
-    // From the leaves: a node's sum is its own wave and its branches' sums, each times the weight of its tie.
-    sums_.assign(arrivals_ + absent_, {});
-    for (std::size_t a = 0; a < arrivals_; ++a) sums_[a] = arrivals[a].field[band];
-    for (std::size_t i = branches_.size(); i-- > 0;) {
-      const Branch& branch = branches_[i];
-      if (branch.parent == no_index) continue;
-      const double weight = weights_[branch.weights + band];
-      auto& into = sums_[branch.parent];
-      const std::array<std::complex<double>, 2> part{weight * sums_[branch.node][0], weight * sums_[branch.node][1]};
-      out[band] += 2 * correlation(into, part, polarisation);
-      for (std::size_t p = 0; p < 2; ++p) into[p] += part[p];
-    }
+    out[band] =
+        extent > 0 ? over_a_square(arrivals, band, polarisation, extent) : at_the_point(arrivals, band, polarisation);
     // A null of the field may come out a rounding error below zero.
     double powers = 0;
     for (const Arrival& arrival : arrivals) powers += received_power(arrival.field[band], polarisation);

@@ -47,8 +47,12 @@ class CompositeSum {
  public:
   CompositeSum(const Scene& scene, const Plan& plan) : scene_(&scene), plan_(&plan) {}
 
-  /// interference[band] of the arrivals at one point, for the receiver's polarisation.
-  void interference(std::span<const Arrival> arrivals, Polarisation polarisation, std::span<double> out);
+  /// interference[band] of the arrivals at one point, for the receiver's polarisation. With `extent` h > 0 (m) its mean
+  /// over the horizontal square of side h about the point: the phase between two waves of directions d, d' changes
+  /// there by k(d − d')·δ, so each cross term is multiplied by sinc(k Δd_x h/2) sinc(k Δd_y h/2). (A correlation times
+  /// the transform of a square is a correlation: the total stays ≥ 0.)
+  void interference(std::span<const Arrival> arrivals, Polarisation polarisation, std::span<double> out,
+                    double extent = 0);
 
  private:
   /// Two nodes that add as fields. Nodes are the arrivals, then the bounded waves that do not arrive.
@@ -59,6 +63,8 @@ class CompositeSum {
   void tie_to_composites(std::span<const Arrival> arrivals);
   void tie_corners(std::span<const Arrival> arrivals);
   void span_tree();
+  double at_the_point(std::span<const Arrival> arrivals, std::size_t band, Polarisation polarisation);
+  double over_a_square(std::span<const Arrival> arrivals, std::size_t band, Polarisation polarisation, double extent);
   std::uint32_t node_of(SequenceHash composite);
   std::uint32_t root_of(std::uint32_t node);
 
@@ -76,6 +82,8 @@ class CompositeSum {
   std::vector<Branch> branches_;                      ///< of the spanning forest, parents first
   std::vector<std::uint32_t> first_, next_, tie_of_;  ///< neighbours of the nodes along kept ties
   std::vector<std::array<std::complex<double>, 2>> sums_;
+  std::vector<std::uint32_t> place_;  ///< of a node in its tree
+  std::vector<double> gamma_;         ///< of the pairs of one tree
 };
 
 }  // namespace grimaldi

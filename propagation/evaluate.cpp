@@ -91,7 +91,8 @@ class CellEvaluator {
       for (std::size_t band = 0; band < plan_.bands(); ++band)
         sums_[band].fine2 += points[i].weight * fine_[band] * fine_[band];
       if (points[i].edge_weight == 0) continue;
-      composite_.interference({arrivals_.data(), count}, polarisation, interference_);
+      composite_.interference({arrivals_.data(), count}, polarisation, interference_,
+                              grid_.layout.cell * std::sqrt(points[i].edge_weight));
       for (std::size_t band = 0; band < plan_.bands(); ++band) {
         sums_[band].interference += points[i].edge_weight * interference_[band];
         for (std::size_t a = 0; a < count; ++a)
