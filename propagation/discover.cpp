@@ -27,8 +27,6 @@ void merge(const BlockRecords& block, std::uint32_t pass_bit, Discovered& all) {
   std::vector<std::uint32_t> number(block.sequences.size());
   for (std::size_t i = 0; i < number.size(); ++i) {
     number[i] = all.sequences.enter(block.sequences.hash(i), block.sequences[i]);
-    if (number[i] >= all.found.size()) all.found.resize(number[i] + 1, 0);
-    all.found[number[i]] |= pass_bit;
   }
   for (const Seed& seed : block.seeds)
     all.seeds.push_back({number[seed.sequence], seed.cell, pass_bit, seed.crossed, seed.gain});
@@ -79,11 +77,9 @@ void unite_seeds(std::vector<Seed>& seeds, std::size_t sequences, unsigned threa
 }  // namespace
 
 void Discovered::append(const Discovered& later) {
-  const auto offset = static_cast<std::uint32_t>(sequences.size());
   std::vector<std::uint32_t> number(later.sequences.size());
   for (std::size_t i = 0; i < number.size(); ++i) {
     number[i] = sequences.enter(later.sequences.hash(i), later.sequences[i]);
-    if (number[i] >= offset) found.push_back(later.found[i]);
   }
   for (const Seed& seed : later.seeds)
     seeds.push_back({number[seed.sequence], seed.cell, seed.passes, seed.crossed, seed.gain});
@@ -96,7 +92,6 @@ Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, 
   const PlanDescription& request = plan.request;
   Discovered all;
   all.sequences.enter(empty_sequence, {});
-  all.found.assign(1, ~0u);
   const bool needed = request.depth > 0 && (request.reflection || request.diffraction);
   const auto total = static_cast<std::uint64_t>(request.rays);
   const auto passes = static_cast<std::uint64_t>(request.passes);
@@ -155,9 +150,6 @@ Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, 
   }
   const auto start = Clock::now();
   const std::vector<std::uint32_t> renumbered = all.sequences.sort();
-  std::vector<std::uint32_t> found(all.found.size());
-  for (std::size_t i = 0; i < found.size(); ++i) found[renumbered[i]] = all.found[i];
-  all.found = std::move(found);
   for (Seed& seed : all.seeds) seed.sequence = renumbered[seed.sequence];
   unite_seeds(all.seeds, all.sequences.size(), threads);
   all.merge_seconds += seconds_since(start);

@@ -21,10 +21,9 @@ struct Seed {
 };
 
 struct Discovered {
-  SequenceTable sequences;           ///< sorted; the empty sequence is number 0
-  std::vector<std::uint32_t> found;  ///< passes (bits) in which each sequence was found
-  std::vector<Seed> seeds;           ///< sorted by sequence, then cell; unique
-  FluxLedger flux;                   ///< of the launched beams, shares of all
+  SequenceTable sequences;  ///< sorted; the empty sequence is number 0
+  std::vector<Seed> seeds;  ///< sorted by sequence, then cell; unique
+  FluxLedger flux;          ///< of the launched beams, shares of all
   std::uint64_t rays = 0, segments = 0;
   double merge_seconds = 0;  ///< of one thread, uniting the blocks' records
 

@@ -23,7 +23,7 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 /// Sums of one cell and band.
 struct CellSums {
   std::array<double, mechanism_count> layers{};
-  double delay = 0, delay2 = 0, power = 0;  ///< power-weighted moments of the delay about the first arrival
+  double delay = 0, delay2 = 0, power = 0;  ///< power-weighted moments of the delay about the straight way's
   double fine2 = 0, edge2 = 0;              ///< Σ w x² of a point's power x, of each set
   double interference = 0;                  ///< Σ w I over the edges' points
   double edge_points_power = 0;             ///< Σ w |h|² of all paths over the edges' points
