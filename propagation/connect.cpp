@@ -6,44 +6,43 @@
 namespace grimaldi {
 namespace {
 
-/// A point of the edge as rays see it: moved out of the solid.
-Vec3 outside_edge(const Wedge& wedge, const Vec3& point, double gap) {
-  const double half = 0.5 * wedge.exterior_angle;
-  return point + 3 * gap * (std::cos(half) * wedge.along0 + std::sin(half) * wedge.normal0);
+/// A vertex of the path as rays see it: an edge's is moved out of the solid.
+Vec3 vertex(const Scene& scene, const Tracer& tracer, std::span<const Interaction> interactions,
+            const PathGeometry& geometry, std::size_t i) {
+  if (i == 0 || i + 1 == geometry.count || !is_edge(interactions[i - 1])) return geometry.points[i];
+  const Wedge& wedge = scene.wedges.wedges[index_of(interactions[i - 1])];
+  return geometry.points[i] + 3 * tracer.surface_gap() * wedge.bisector();
+}
+
+/// The face at point i of the path; no_index for an edge or an end.
+std::uint32_t face_at(std::span<const Interaction> interactions, std::size_t i) {
+  return i > 0 && i <= interactions.size() && !is_edge(interactions[i - 1]) ? interactions[i - 1] : no_index;
 }
 
 }  // namespace
 
-bool connected(const Scene& scene, const Tracer& tracer, std::span<const Interaction> interactions,
-               const PathGeometry& geometry, std::uint64_t& shadow_rays) {
+std::optional<std::size_t> blocked_leg(const Scene& scene, const Tracer& tracer,
+                                       std::span<const Interaction> interactions, const PathGeometry& geometry,
+                                       std::uint64_t& shadow_rays) {
   const double gap = tracer.surface_gap();
-  const std::size_t legs = geometry.count - 1;
-  Vec3 from = geometry.points[0];
   // The last leg first: it is the one that most often ends in a wall.
-  const auto place = [&](std::size_t i) {
-    if (i == 0 || i == legs || !is_edge(interactions[i - 1])) return geometry.points[i];
-    return outside_edge(scene.wedges.wedges[index_of(interactions[i - 1])], geometry.points[i], gap);
-  };
-  for (std::size_t k = 0; k < legs; ++k) {
-    const std::size_t leg = legs - 1 - k;  // from point `leg` to point `leg + 1`
-    from = place(leg);
-    const Vec3 to = place(leg + 1);
+  for (std::size_t leg = geometry.count - 1; leg-- > 0;) {
+    const Vec3 from = vertex(scene, tracer, interactions, geometry, leg);
+    const Vec3 to = vertex(scene, tracer, interactions, geometry, leg + 1);
     ++shadow_rays;
-    const bool to_face = leg + 1 < legs && !is_edge(interactions[leg]);
-    if (!to_face) {
-      if (!tracer.visible(from, to)) return false;
+    const std::uint32_t target = face_at(interactions, leg + 1);
+    if (target == no_index) {
+      if (!tracer.visible(from, to)) return leg;
       continue;
     }
-    const std::uint32_t target = interactions[leg];
     const Vec3 way = to - from;
     const double length = norm(way);
-    const std::uint32_t left = leg > 0 && !is_edge(interactions[leg - 1]) ? interactions[leg - 1] : no_index;
-    const Hit hit = tracer.nearest(from, way / length, left);
-    if (hit.triangle == no_index || scene.patches.triangle_patch[hit.triangle] != target) return false;
+    const Hit hit = tracer.nearest(from, way / length, face_at(interactions, leg));
+    if (hit.triangle == no_index || scene.patches.triangle_patch[hit.triangle] != target) return leg;
     const double cosine = std::abs(dot(way, scene.patches.patches[target].normal)) / length;
-    if (std::abs(hit.distance - length) > 4 * gap / std::max(cosine, 1e-3)) return false;
+    if (std::abs(hit.distance - length) > 4 * gap / std::max(cosine, 1e-3)) return leg;
   }
-  return true;
+  return std::nullopt;
 }
 
 }  // namespace grimaldi

@@ -1,6 +1,7 @@
 #pragma once
 // Visibility of a path whose points are known.
 
+#include <optional>
 #include <span>
 
 #include "propagation/fermat.h"
@@ -9,10 +10,17 @@
 
 namespace grimaldi {
 
-/// True if every leg of the path is free: a leg that ends at a face must hit that face's patch at its point first,
-/// every other leg must meet nothing. Edges are passed 3 `surface_gap()` out along the bisector of their exterior.
-/// `shadow_rays` grows by the rays asked.
-bool connected(const Scene& scene, const Tracer& tracer, std::span<const Interaction> interactions,
-               const PathGeometry& geometry, std::uint64_t& shadow_rays);
+/// The number of a leg (from point `leg` to point `leg` + 1) that is not free; nothing if all are: a leg that ends at a
+/// face must hit that face's patch at its point first, every other leg must meet nothing. The last leg is asked first.
+/// Edges are passed 3 `surface_gap()` out along the bisector of their exterior. `shadow_rays` grows by the rays asked.
+std::optional<std::size_t> blocked_leg(const Scene& scene, const Tracer& tracer,
+                                       std::span<const Interaction> interactions, const PathGeometry& geometry,
+                                       std::uint64_t& shadow_rays);
+
+/// True if no leg is blocked.
+inline bool connected(const Scene& scene, const Tracer& tracer, std::span<const Interaction> interactions,
+                      const PathGeometry& geometry, std::uint64_t& shadow_rays) {
+  return !blocked_leg(scene, tracer, interactions, geometry, shadow_rays);
+}
 
 }  // namespace grimaldi

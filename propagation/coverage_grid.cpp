@@ -106,8 +106,9 @@ class ParityRaster {
   double step_;
 };
 
-/// Points of a cell that is partly inside, from the bits of its inside points.
-void add_partly_inside(const GridLayout& grid, std::size_t cell, std::uint64_t inside, int n, bool edge,
+/// Points of a cell that is partly inside, from the bits of its inside points; set 0 (fine) has weights, 1 (coarse) and
+/// 2 (dense) edge weights.
+void add_partly_inside(const GridLayout& grid, std::size_t cell, std::uint64_t inside, int n, std::uint32_t set,
                        std::uint64_t seed, std::vector<SubPoint>& out) {
   const double outdoors = 64 - std::popcount(inside);
   for (int part = 0; part < n * n; ++part) {
@@ -118,9 +119,9 @@ void add_partly_inside(const GridLayout& grid, std::size_t cell, std::uint64_t i
         if (!(inside >> (j * raster + i) & 1) && (j * n / raster) * n + i * n / raster == part)
           points[count++] = grid.cell / raster * Vec3{i + 0.5 - raster / 2, j + 0.5 - raster / 2, 0};
     if (count == 0) continue;
-    const double u = uniform4(seed, sub_point_stream, cell, static_cast<std::uint32_t>(2 * part + edge))[0];
+    const double u = uniform4(seed, sub_point_stream, cell, 3 * static_cast<std::uint32_t>(part) + set)[0];
     const double weight = double(count) / outdoors;
-    out.push_back({points[static_cast<std::size_t>(u * double(count))], edge ? 0 : weight, edge ? weight : 0});
+    out.push_back({points[static_cast<std::size_t>(u * double(count))], set == 0 ? weight : 0, set == 0 ? 0 : weight});
   }
 }
 
@@ -140,10 +141,18 @@ int edge_sub_points_a_side(const PlanDescription& request) {
   return std::clamp(static_cast<int>(std::lround(2 * std::cbrt(request.rays / 1e6))), 2, 5);
 }
 
+int dense_sub_points_a_side(const PlanDescription& request) {
+  const int coarse = edge_sub_points_a_side(request);
+  if (coarse == 0) return 0;
+  const int dense = static_cast<int>(std::lround(std::min(8.0, 4 * std::sqrt(request.rays / 1e6))));
+  return dense > coarse ? dense : 0;
+}
+
 CoverageGrid make_coverage_grid(const Scene& scene, const Plan& plan) {
   static_assert(sub_points_a_side * sub_points_a_side + 5 * 5 <= max_sub_points);
   const GridLayout& layout = plan.grid;
   const int edge_points = edge_sub_points_a_side(plan.request);
+  const int dense_points = dense_sub_points_a_side(plan.request);
   ParityRaster parity(layout);
   for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
     const auto& corners = scene.triangles[t];
@@ -154,22 +163,29 @@ CoverageGrid make_coverage_grid(const Scene& scene, const Plan& plan) {
   grid.layout = layout;
   add_outdoors(layout, sub_points_a_side, false, grid.sub_points);
   add_outdoors(layout, edge_points, true, grid.sub_points);
+  add_outdoors(layout, dense_points, true, grid.dense_points);
   const auto shared = static_cast<std::uint32_t>(grid.sub_points.size());
+  const auto shared_dense = static_cast<std::uint32_t>(grid.dense_points.size());
   grid.inside_fraction.reserve(layout.size());
   grid.ranges.reserve(layout.size());
   for (std::size_t cell = 0; cell < layout.size(); ++cell) {
     const std::uint64_t inside = parity.bits(cell);
     grid.inside_fraction.push_back(std::popcount(inside) / 64.0);
-    const auto first = static_cast<std::uint32_t>(grid.sub_points.size());
     if (inside == 0) {
       grid.ranges.push_back({0, shared});
+      if (dense_points > 0) grid.dense_ranges.push_back({0, shared_dense});
       continue;
     }
+    const auto first = static_cast<std::uint32_t>(grid.sub_points.size());
+    const auto first_dense = static_cast<std::uint32_t>(grid.dense_points.size());
     if (inside != ~std::uint64_t(0)) {
-      add_partly_inside(layout, cell, inside, sub_points_a_side, false, plan.request.seed, grid.sub_points);
-      add_partly_inside(layout, cell, inside, edge_points, true, plan.request.seed, grid.sub_points);
+      add_partly_inside(layout, cell, inside, sub_points_a_side, 0, plan.request.seed, grid.sub_points);
+      add_partly_inside(layout, cell, inside, edge_points, 1, plan.request.seed, grid.sub_points);
+      add_partly_inside(layout, cell, inside, dense_points, 2, plan.request.seed, grid.dense_points);
     }
     grid.ranges.push_back({first, static_cast<std::uint32_t>(grid.sub_points.size()) - first});
+    if (dense_points > 0)
+      grid.dense_ranges.push_back({first_dense, static_cast<std::uint32_t>(grid.dense_points.size()) - first_dense});
   }
   return grid;
 }

@@ -26,12 +26,17 @@ struct CoverageGrid {
   GridLayout layout;
   std::vector<double> inside_fraction;  ///< per cell
   std::vector<SubPoint> sub_points;     ///< first those that all cells wholly outdoors share
+  std::vector<SubPoint> dense_points;   ///< the same of a third set (edge_weight), for the strong paths over edges
   struct Range {
     std::uint32_t first, count;
   };
-  std::vector<Range> ranges;  ///< per cell; count 0 for a cell wholly inside
+  std::vector<Range> ranges, dense_ranges;  ///< per cell; count 0 for a cell wholly inside; dense: none, or per cell
   std::span<const SubPoint> of(std::size_t cell) const {
     return {sub_points.data() + ranges[cell].first, ranges[cell].count};
+  }
+  std::span<const SubPoint> dense_of(std::size_t cell) const {
+    if (dense_ranges.empty()) return {};
+    return {dense_points.data() + dense_ranges[cell].first, dense_ranges[cell].count};
   }
 };
 
@@ -39,8 +44,12 @@ struct CoverageGrid {
 inline constexpr int sub_points_a_side = 6;
 
 /// Coarse sub-points along a cell's side for a run of `rays`: 2 (rays/1e6)^⅓, at least 2, at most 5; 0 where nothing
-/// diffracts. Their error falls as n^−3/2, so as the root of the rays.
+/// diffracts.
 int edge_sub_points_a_side(const PlanDescription& request);
+
+/// Dense sub-points along a cell's side: 4 √(rays/1e6), at most 8; 0 where that is no more than the coarse ones. The
+/// error of paths that light a part of the cell falls at least as one over their number a side.
+int dense_sub_points_a_side(const PlanDescription& request);
 
 /// A cell's inside fraction is taken at 8 × 8 points: inside where an odd number of surfaces, ground excluded, lies
 /// straight above (all triangles scanned row by row with one fill rule, so that a point above a common edge counts

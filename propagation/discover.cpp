@@ -37,6 +37,25 @@ void merge(const BlockRecords& block, std::uint32_t pass_bit, Discovered& all) {
   all.flux.cut_by_depth += block.flux.cut_by_depth;
 }
 
+bool comes_before(const Seed& a, const Seed& b) {
+  return a.sequence != b.sequence ? a.sequence < b.sequence : a.cell < b.cell;
+}
+
+/// Unites neighbours of one sequence and cell in [first, end); returns the new end.
+Seed* unite(Seed* first, const Seed* end) {
+  Seed* to = first;
+  for (const Seed* seed = first; seed != end; ++seed) {
+    if (to != first && to[-1].sequence == seed->sequence && to[-1].cell == seed->cell) {
+      to[-1].passes |= seed->passes;
+      to[-1].crossed |= seed->crossed;
+      to[-1].gain = std::max(to[-1].gain, seed->gain);
+    } else {
+      *to++ = *seed;
+    }
+  }
+  return to;
+}
+
 /// Sorts the seeds and unites those of one sequence and cell: dealt to their sequences, sorted by cell within each.
 void unite_seeds(std::vector<Seed>& seeds, std::size_t sequences, unsigned threads) {
   std::vector<std::size_t> begins(sequences + 1, 0), kept(sequences, 0);
@@ -55,17 +74,7 @@ void unite_seeds(std::vector<Seed>& seeds, std::size_t sequences, unsigned threa
       Seed* const first = dealt.data() + begins[sequence];
       Seed* const end = dealt.data() + begins[sequence + 1];
       std::sort(first, end, [](const Seed& a, const Seed& b) { return a.cell < b.cell; });
-      Seed* to = first;
-      for (const Seed* seed = first; seed != end; ++seed) {
-        if (to != first && to[-1].cell == seed->cell) {
-          to[-1].passes |= seed->passes;
-          to[-1].crossed |= seed->crossed;
-          to[-1].gain = std::max(to[-1].gain, seed->gain);
-        } else {
-          *to++ = *seed;
-        }
-      }
-      kept[sequence] = static_cast<std::size_t>(to - first);
+      kept[sequence] = static_cast<std::size_t>(unite(first, end) - first);
     }
   });
   seeds.clear();
@@ -76,15 +85,23 @@ void unite_seeds(std::vector<Seed>& seeds, std::size_t sequences, unsigned threa
 
 }  // namespace
 
-void Discovered::append(const Discovered& later) {
+std::size_t Discovered::append(const Discovered& later) {
   std::vector<std::uint32_t> number(later.sequences.size());
   for (std::size_t i = 0; i < number.size(); ++i) {
     number[i] = sequences.enter(later.sequences.hash(i), later.sequences[i]);
   }
+  const auto first = static_cast<std::ptrdiff_t>(seeds.size());
   for (const Seed& seed : later.seeds)
     seeds.push_back({number[seed.sequence], seed.cell, seed.passes, seed.crossed, seed.gain});
+  std::stable_sort(seeds.begin() + first, seeds.end(), comes_before);
+  seeds.resize(static_cast<std::size_t>(unite(seeds.data() + first, seeds.data() + seeds.size()) - seeds.data()));
+  for (BlockedPath path : later.blocked) {
+    path.sequence = number[path.sequence];
+    blocked.push_back(path);
+  }
   segments += later.segments;
   merge_seconds += later.merge_seconds;
+  return static_cast<std::size_t>(first);
 }
 
 Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,

@@ -20,16 +20,24 @@ struct Seed {
   float gain;    ///< largest estimate of the beams that said so, over the wave at 1 m
 };
 
+/// A sequence whose path to a point of a cell something stands in the way of.
+struct BlockedPath {
+  std::uint32_t sequence, cell;
+  std::uint8_t leg, point;  ///< of the path; of the cell's sub-points
+};
+
 struct Discovered {
-  SequenceTable sequences;  ///< sorted; the empty sequence is number 0
-  std::vector<Seed> seeds;  ///< sorted by sequence, then cell; unique
-  FluxLedger flux;          ///< of the launched beams, shares of all
+  SequenceTable sequences;           ///< sorted; the empty sequence is number 0
+  std::vector<Seed> seeds;           ///< sorted by sequence, then cell; unique
+  std::vector<BlockedPath> blocked;  ///< still to be led around what blocks them
+  FluxLedger flux;                   ///< of the launched beams, shares of all
   std::uint64_t rays = 0, segments = 0;
   double merge_seconds = 0;  ///< of one thread, uniting the blocks' records
 
-  /// Adds what a later search of the same transmitter found: its sequences get the numbers after the ones there are.
-  /// The ledger and the rays stay those of the first (the beams are the same).
-  void append(const Discovered& later);
+  /// Adds what a later search of the same transmitter found: its new sequences get the numbers after the ones there
+  /// are, its seeds come behind the others, sorted among themselves and unique. Returns the number of their first. The
+  /// ledger and the rays stay those of the first (the beams are the same).
+  std::size_t append(const Discovered& later);
 };
 
 /// Which part of the paths to look for. Paths of two and more edges are many and mostly negligible: they are looked for
@@ -48,9 +56,8 @@ struct Search {
 /// * From an edge met leaves a fan (16 beams for a first edge, else 6) on the Keller cone, azimuths drawn half
 ///   uniformly over the exterior and half close to the shadow and reflection boundaries; they go on in the same way.
 ///   After a reflection or an edge a beam meets the edges of the triangle that it hits within its footprint (¾ of the
-///   spacing of the beams at its length, at least 14 mrad), and is aimed at one wedge (three while it has met faces
-///   alone) of that patch or of its neighbours. What blocks a beam aimed at a wedge is gone around by one of its rims,
-///   as one more edge.
+///   spacing of the beams at its length, at least 14 mrad); while it has met faces alone it is also aimed at three
+///   wedges of that patch or of its neighbours.
 /// * A segment of a beam names the cell that it crosses and one cell, drawn at random, over or under which it passes: a
 ///   wave that leaves a wall or an upright edge at one height leaves it at others too.
 /// * Paths 140 dB weaker than the wave at 1 m, by a bound on the way, are not sought.

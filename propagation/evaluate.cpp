@@ -24,7 +24,8 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 struct CellSums {
   std::array<double, mechanism_count> layers{};
   double delay = 0, delay2 = 0, power = 0;  ///< power-weighted moments of the delay about the straight way's
-  double fine2 = 0, edge2 = 0;              ///< Σ w x² of a point's power x, of each set
+  double fine2 = 0, edge2 = 0, dense2 = 0;  ///< Σ w x² of a point's power x, of each set
+  double dense = 0;                         ///< Σ w x of the dense set
   double interference = 0;                  ///< Σ w I over the edges' points
   double edge_points_power = 0;             ///< Σ w |h|² of all paths over the edges' points
   std::array<double, 32> lone{};            ///< gain that one pass alone found
@@ -57,40 +58,24 @@ class CellEvaluator {
     unfolded.clear();
     for (const Pair& pair : pairs)
       unfolded.emplace_back(scene_, transmitter.position, discovered_.sequences[pair.sequence]);
-    fine_.resize(plan_.bands());
-    edge_.resize(plan_.bands());
+    at_point_.resize(plan_.bands());
     for (std::size_t i = 0; i < points.size(); ++i) {
+      const bool coarse = points[i].edge_weight > 0;
       std::size_t count = 0;
-      std::fill(fine_.begin(), fine_.end(), 0.0);
-      std::fill(edge_.begin(), edge_.end(), 0.0);
+      std::fill(at_point_.begin(), at_point_.end(), 0.0);
       for (std::size_t p = 0; p < pairs.size(); ++p) {
         if (!(pairs[p].visible >> i & 1)) continue;
         if (arrivals_.size() <= count) arrivals_.emplace_back();
         Arrival& arrival = arrivals_[count];
-        if (!unfolded[p].solve(grid_.layout.centre(cell) + points[i].offset, wavelength_, arrival.geometry)) continue;
-        arrival.sequence = pairs[p].sequence;
-        arrival.hash = discovered_.sequences.hash(pairs[p].sequence);
-        arrival.interactions = discovered_.sequences[pairs[p].sequence];
-        arrival.field.resize(plan_.bands());
-        path_field(scene_, plan_, transmitter, arrival.interactions, arrival.geometry, arrival.field);
-        const auto layer = static_cast<std::size_t>(mechanism_of(arrival.interactions));
-        const double delay = arrival.geometry.length / plan_.speed - reference_delay;
-        for (std::size_t band = 0; band < plan_.bands(); ++band) {
-          const double weight = layer == diffraction_layer ? points[i].edge_weight : points[i].weight;
-          const double here = received_power(arrival.field[band], polarisation), power = weight * here;
-          (layer == diffraction_layer ? edge_ : fine_)[band] += here;
-          CellSums& sums = sums_[band];
-          sums.layers[layer] += power;
-          sums.power += power;
-          sums.delay += power * delay;
-          sums.delay2 += power * delay * delay;
-          if (std::has_single_bit(pairs[p].passes)) sums.lone[std::countr_zero(pairs[p].passes)] += power;
-        }
+        if (!arrive(grid_.layout.centre(cell) + points[i].offset, pairs[p], p, arrival)) continue;
+        const bool with_edge = count_edges(arrival.interactions) > 0;
+        if (!pairs[p].refined && with_edge == coarse)
+          add(pairs[p], arrival, coarse ? points[i].edge_weight : points[i].weight, reference_delay);
         ++count;
       }
       for (std::size_t band = 0; band < plan_.bands(); ++band)
-        sums_[band].fine2 += points[i].weight * fine_[band] * fine_[band];
-      if (points[i].edge_weight == 0) continue;
+        sums_[band].fine2 += points[i].weight * at_point_[band] * at_point_[band];
+      if (!coarse) continue;
       composite_.interference({arrivals_.data(), count}, polarisation, interference_,
                               grid_.layout.cell * std::sqrt(points[i].edge_weight));
       for (std::size_t band = 0; band < plan_.bands(); ++band) {
@@ -98,14 +83,56 @@ class CellEvaluator {
         for (std::size_t a = 0; a < count; ++a)
           sums_[band].edge_points_power +=
               points[i].edge_weight * received_power(arrivals_[a].field[band], polarisation);
-        const double here = edge_[band] + interference_[band];
+        const double here = at_point_[band] + interference_[band];
         sums_[band].edge2 += points[i].edge_weight * here * here;
+      }
+    }
+    const auto dense = grid_.dense_of(cell);
+    arrivals_.resize(std::max<std::size_t>(arrivals_.size(), 1));
+    for (std::size_t i = 0; i < dense.size(); ++i) {
+      std::fill(at_point_.begin(), at_point_.end(), 0.0);
+      for (std::size_t p = 0; p < pairs.size(); ++p)
+        if ((pairs[p].dense >> i & 1) &&
+            arrive(grid_.layout.centre(cell) + dense[i].offset, pairs[p], p, arrivals_.front()))
+          add(pairs[p], arrivals_.front(), dense[i].edge_weight, reference_delay);
+      for (std::size_t band = 0; band < plan_.bands(); ++band) {
+        sums_[band].dense += dense[i].edge_weight * at_point_[band];
+        sums_[band].dense2 += dense[i].edge_weight * at_point_[band] * at_point_[band];
       }
     }
     store(cell, pairs, points, reference_delay);
   }
 
  private:
+  /// The wave of pair number p at a point; false if it does not get there.
+  bool arrive(const Vec3& point, const Pair& pair, std::size_t p, Arrival& arrival) {
+    if (!unfolded_[p].solve(point, wavelength_, arrival.geometry)) return false;
+    arrival.sequence = pair.sequence;
+    arrival.hash = discovered_.sequences.hash(pair.sequence);
+    arrival.interactions = discovered_.sequences[pair.sequence];
+    arrival.field.resize(plan_.bands());
+    path_field(scene_, plan_, plan_.request.transmitters[transmitter_], arrival.interactions, arrival.geometry,
+               arrival.field);
+    return true;
+  }
+
+  /// Its power into the sums of the cell and of the point.
+  void add(const Pair& pair, const Arrival& arrival, double weight, double reference_delay) {
+    const auto layer = static_cast<std::size_t>(mechanism_of(arrival.interactions));
+    const double delay = arrival.geometry.length / plan_.speed - reference_delay;
+    for (std::size_t band = 0; band < plan_.bands(); ++band) {
+      const double here = received_power(arrival.field[band], plan_.request.coverage->polarisation);
+      const double power = weight * here;
+      at_point_[band] += here;
+      CellSums& sums = sums_[band];
+      sums.layers[layer] += power;
+      sums.power += power;
+      sums.delay += power * delay;
+      sums.delay2 += power * delay * delay;
+      if (std::has_single_bit(pair.passes)) sums.lone[std::countr_zero(pair.passes)] += power;
+    }
+  }
+
   /// True if the fine points are no smooth quadrature: the cell is crossed, or a path without an edge ends inside it.
   bool broken(std::size_t cell, std::span<const Pair> pairs, std::span<const SubPoint> points) const {
     if (grid_.inside_fraction[cell] > 0) return true;
@@ -118,6 +145,7 @@ class CellEvaluator {
 
   void store(std::size_t cell, std::span<const Pair> pairs, std::span<const SubPoint> points, double reference_delay) {
     double edge_points = 0, fine_points = 0;
+    const auto dense_points = static_cast<double>(grid_.dense_of(cell).size());
     for (const SubPoint& point : points) edge_points += point.edge_weight > 0, fine_points += point.weight > 0;
     const bool fine_counts = broken(cell, pairs, points);
     const std::size_t cells = grid_.layout.size(), bands = plan_.bands();
@@ -147,13 +175,14 @@ class CellEvaluator {
         const double student = n < 10 ? half_quantile[static_cast<std::size_t>(n) - 1] : 1.0;
         return student * student * std::max(0.0, squares2 - mean * mean) / std::max(1.0, n - 1);
       };
-      const double edge_mean = sums.layers[diffraction_layer] + sums.interference;
+      const double edge_mean = sums.layers[diffraction_layer] - sums.dense + sums.interference;
       const double fine_mean = sums.power - sums.layers[diffraction_layer];
-      const double variance =
-          spread(sums.edge2, edge_mean, edge_points) + (fine_counts ? spread(sums.fine2, fine_mean, fine_points) : 0);
+      const double variance = spread(sums.edge2, edge_mean, edge_points) +
+                              spread(sums.dense2, sums.dense, dense_points) +
+                              (fine_counts ? spread(sums.fine2, fine_mean, fine_points) : 0);
       map_.path_gain[at] = gain;
       map_.standard_error[at] = std::sqrt((passes - 1) / passes * squares + variance);
-      map_.bias[at] = (passes - 1) / passes * lone;
+      map_.bias[at] = gain > 0 ? (passes - 1) / passes * std::min(1.0, lone / gain) : 0;  // a share as yet
       if (sums.power > 0) {
         const double mean = sums.delay / sums.power;
         map_.mean_delay[at] = reference_delay + mean;
@@ -171,10 +200,46 @@ class CellEvaluator {
   const double wavelength_;
   CompositeSum composite_;
   std::vector<CellSums> sums_;
-  std::vector<double> interference_, fine_, edge_;
+  std::vector<double> interference_, at_point_;
   std::vector<UnfoldedSequence> unfolded_;
   std::vector<Arrival> arrivals_;
 };
+
+/// From the share g of each cell's gain that one pass alone found to the gain that none has found: g/(1 − g) of the
+/// cell's gain, with its own share or the mean over the cells within `pooled_cells`, whichever is larger.
+void estimate_missing(const GridLayout& layout, std::span<const double> gain, std::span<double> bias) {
+  constexpr std::size_t pooled_cells = 5;
+  constexpr double largest_share = 0.95;
+  // Running sums along x, then y.
+  const auto summed = [&](std::vector<double> values) {
+    const auto along = [&](std::size_t lines, std::size_t line_step, std::size_t count, std::size_t step) {
+      std::vector<double> before(count + 1);
+      for (std::size_t line = 0; line < lines; ++line) {
+        double* const first = values.data() + line * line_step;
+        for (std::size_t i = 0; i < count; ++i) before[i + 1] = before[i] + first[i * step];
+        for (std::size_t i = 0; i < count; ++i)
+          first[i * step] = before[std::min(count, i + pooled_cells + 1)] - before[i - std::min(i, pooled_cells)];
+      }
+    };
+    along(layout.ny, layout.nx, layout.nx, 1);
+    along(layout.nx, 1, layout.ny, layout.nx);
+    return values;
+  };
+  std::vector<double> shares(bias.begin(), bias.end()), reached(bias.size(), 0);
+  for (std::size_t i = 0; i < bias.size(); ++i) {
+    if (gain[i] > 0)
+      reached[i] = 1;
+    else
+      shares[i] = 0;
+  }
+  const std::vector<double> share_sum = summed(shares), count = summed(reached);
+  for (std::size_t i = 0; i < bias.size(); ++i) {
+    if (!(gain[i] > 0)) continue;
+    const double g = std::clamp(std::max(shares[i], share_sum[i] / count[i]), 0.0, largest_share);
+    // Running sums leave a rounding error where all shares are 0.
+    bias[i] = g > 1e-12 ? gain[i] * g / (1 - g) : 0;
+  }
+}
 
 }  // namespace
 
@@ -225,6 +290,10 @@ void evaluate(const Scene& scene, const Plan& plan, std::size_t transmitter, con
         }
       },
       stop);
+  for (std::size_t band = 0; band < plan.bands(); ++band) {
+    const std::size_t at = (transmitter * plan.bands() + band) * cells;
+    estimate_missing(grid.layout, {map.path_gain.data() + at, cells}, {map.bias.data() + at, cells});
+  }
   // Detection limit: geometry and the number of rays alone.
   const Vec3 source = plan.request.transmitters[transmitter].position;
   const double wavelength = 2 * pi / plan.wavenumber.front();

@@ -24,7 +24,9 @@ CoverageMap empty_map(const Plan& plan, const CoverageGrid& grid);
 ///   found, (B−1)/B Σ(u_i − ū)². Sub-points: what edges bring to a point, interference included, adds its variance over
 ///   the n points/(n − 1); what comes without an edge does so where a wall crosses the cell or such a path ends inside
 ///   it (elsewhere the quadrature is exact). Of few points with Student's factor, so that 2 standard errors cover 95 %.
-/// * bias = (B−1)/B Σ u_i: the jackknife's estimate of what no pass has found yet.
+/// * bias: what no pass has found yet, as Good and Turing estimate it: with the share g = (B−1)/B Σ u_i/gain that one
+///   pass alone found, gain · g/(1 − g). g of the cell or its mean over the 11 × 11 cells around, whichever is larger
+///   (a cell's own few paths say little of what it lacks), at most 0.95. Source: Good, Biometrika 40 (1953).
 /// * detection_limit = 3·(4π/(N A cos θ))·(λ/4π)² (sound: 1/4π for (λ/4π)²), N rays, cell area A, θ the angle of the
 ///   straight line from the transmitter to the cell's normal: a lossless path of that gain that fills the cell is
 ///   crossed by 3 beams in the mean, so it is missed with a chance of e^{−3} = 5 %.

@@ -18,6 +18,14 @@ constexpr double last_step = 1e-5;
 /// Beyond an end of an edge its wave is kept while v_V is below this (physics: line 6 of the edge's law).
 constexpr double end_parameter_limit = 3;
 
+/// Where a path over one edge passes it.
+double closed_form(const Vec3& start, const Vec3& direction, const Vec3& a, const Vec3& b) {
+  const Vec3 pa = a - start, pb = b - start;
+  const double za = dot(pa, direction), zb = dot(pb, direction);
+  const double ra = norm(pa - za * direction), rb = norm(pb - zb * direction);
+  return ra + rb > 0 ? (za * rb + zb * ra) / (ra + rb) : 0.5 * (za + zb);
+}
+
 Vec3 mirrored_direction(const Vec3& direction, const Patch& patch) {
   return direction - 2 * dot(direction, patch.normal) * patch.normal;
 }
@@ -42,6 +50,7 @@ UnfoldedSequence::UnfoldedSequence(const Scene& scene, const Vec3& source, std::
         edge.direction = mirrored_direction(edge.direction, patch);
         edge.along0 = mirrored_direction(edge.along0, patch);
         edge.normal0 = mirrored_direction(edge.normal0, patch);
+        edge.normaln = mirrored_direction(edge.normaln, patch);
       }
       continue;
     }
@@ -53,21 +62,101 @@ UnfoldedSequence::UnfoldedSequence(const Scene& scene, const Vec3& source, std::
     for (const std::size_t j : {i - 1, i + 1})
       if (j < interactions.size() && (interactions[j] == wedge.patch0 || interactions[j] == wedge.patchn))
         possible_ = false;
-    edges_[edge_count_++] = {index_of(here), i, wedge.start, wedge.direction, wedge.along0, wedge.normal0};
+    edges_[edge_count_++] = {index_of(here), i, wedge.start, wedge.direction, wedge.along0, wedge.normal0,
+                             wedge.normaln()};
   }
 }
 
-bool UnfoldedSequence::fermat_points(const Vec3& receiver, std::array<double, max_edges>& along) {
-  const auto closed_form = [&](const UnfoldedEdge& edge, const Vec3& a, const Vec3& b) {
-    const Vec3 pa = a - edge.start, pb = b - edge.start;
-    const double za = dot(pa, edge.direction), zb = dot(pb, edge.direction);
-    const double ra = norm(pa - za * edge.direction), rb = norm(pb - zb * edge.direction);
-    return ra + rb > 0 ? (za * rb + zb * ra) / (ra + rb) : 0.5 * (za + zb);
+void UnfoldedSequence::look_from(double along1, double along2) {
+  const UnfoldedEdge &first = edges_[0], &second = edges_[1];
+  pair_.from1 = along1;
+  pair_.from2 = along2;
+  const Vec3 on_first = first.point(along1);
+  const Vec3 between = second.point(along2) - on_first, source_way = image_ - on_first;
+  pair_.cosine = dot(first.direction, second.direction);
+  pair_.offset1 = dot(between, first.direction);
+  pair_.offset2 = dot(between, second.direction);
+  pair_.apart2 = norm2(between);
+  pair_.source_along = dot(source_way, first.direction);
+  pair_.source_off = norm(source_way - pair_.source_along * first.direction);
+  last_ = {};
+  has_last_ = true;
+}
+
+void UnfoldedSequence::begin_at(std::span<const double> along) {
+  if (edge_count_ == 2) {
+    look_from(along[0], along[1]);
+  } else {
+    std::copy(along.begin(), along.end(), last_.begin());
+    has_last_ = true;
+  }
+}
+
+bool UnfoldedSequence::two_fermat_points(const Vec3& receiver, double& along1, double& along2) {
+  if (!has_last_) {
+    // Each edge for itself between the ends.
+    const double along = closed_form(edges_[0].start, edges_[0].direction, image_, receiver);
+    look_from(along, closed_form(edges_[1].start, edges_[1].direction, edges_[0].point(along), receiver));
+  }
+  const UnfoldedEdge& second = edges_[1];
+  const Vec3 way = receiver - second.point(pair_.from2);
+  const double z1 = pair_.source_along, r1 = pair_.source_off;
+  const double z2 = dot(way, second.direction), r2 = norm(way - z2 * second.direction);
+  const double c = pair_.cosine;
+  struct Legs {
+    double in, middle, out;
+    double sum() const { return in + middle + out; }
   };
+  const auto legs_at = [&](double t1, double t2) {
+    const double middle2 =
+        pair_.apart2 + t1 * t1 + t2 * t2 - 2 * c * t1 * t2 + 2 * (pair_.offset2 * t2 - pair_.offset1 * t1);
+    return Legs{std::sqrt(r1 * r1 + (t1 - z1) * (t1 - z1)), std::sqrt(std::max(0.0, middle2)),
+                std::sqrt(r2 * r2 + (t2 - z2) * (t2 - z2))};
+  };
+  double t1 = last_[0], t2 = last_[1];
+  Legs legs = legs_at(t1, t2);
+  for (int iteration = 0; iteration < 60; ++iteration) {
+    if (legs.in < shortest_leg || legs.middle < shortest_leg || legs.out < shortest_leg) return false;
+    const double inverse = 1 / legs.middle;
+    const double a = (t1 - z1) / legs.in, d = (t2 - z2) / legs.out;
+    const double b1 = (t1 - c * t2 - pair_.offset1) * inverse, b2 = (t2 - c * t1 + pair_.offset2) * inverse;
+    const double g1 = a + b1, g2 = b2 + d;
+    const double h11 = (1 - a * a) / legs.in + (1 - b1 * b1) * inverse;
+    const double h22 = (1 - b2 * b2) * inverse + (1 - d * d) / legs.out;
+    const double h12 = (-c - b1 * b2) * inverse;
+    const double determinant = h11 * h22 - h12 * h12;
+    // Positive definite unless the path runs along an edge.
+    if (!(h11 > 0) || !(determinant > 1e-12 * h11 * h22)) return false;
+    const double step1 = (h12 * g2 - h22 * g1) / determinant, step2 = (h12 * g1 - h11 * g2) / determinant;
+    if (std::max(std::abs(step1), std::abs(step2)) < last_step) {
+      last_[0] = t1 + step1;
+      last_[1] = t2 + step2;
+      along1 = pair_.from1 + last_[0];
+      along2 = pair_.from2 + last_[1];
+      has_last_ = true;
+      return true;
+    }
+    // A full Newton step, halved while it does not shorten the way.
+    double share = 1;
+    Legs next = legs_at(t1 + step1, t2 + step2);
+    while (next.sum() > legs.sum() && share > 1e-9) {
+      share *= 0.5;
+      next = legs_at(t1 + share * step1, t2 + share * step2);
+    }
+    if (next.sum() > legs.sum()) return false;
+    t1 += share * step1;
+    t2 += share * step2;
+    legs = next;
+  }
+  return false;
+}
+
+bool UnfoldedSequence::fermat_points(const Vec3& receiver, std::array<double, max_edges>& along) {
   if (edge_count_ == 1) {
-    along[0] = closed_form(edges_[0], image_, receiver);
+    along[0] = closed_form(edges_[0].start, edges_[0].direction, image_, receiver);
     return true;
   }
+  if (edge_count_ == 2) return two_fermat_points(receiver, along[0], along[1]);
   // Start: each edge for itself between the ends, then Newton on the convex length with a tridiagonal Hessian.
   for (std::size_t i = 0; i < edge_count_; ++i) {
     if (has_last_) {
@@ -75,36 +164,42 @@ bool UnfoldedSequence::fermat_points(const Vec3& receiver, std::array<double, ma
       break;
     }
     const Vec3 before = i == 0 ? image_ : edges_[i - 1].point(along[i - 1]);
-    along[i] = closed_form(edges_[i], before, receiver);
+    along[i] = closed_form(edges_[i].start, edges_[i].direction, before, receiver);
   }
-  const auto vertex = [&](std::size_t i, const std::array<double, max_edges>& t) {
-    return i == 0 ? image_ : i > edge_count_ ? receiver : edges_[i - 1].point(t[i - 1]);
+  struct Way {
+    std::array<Vec3, max_edges + 2> vertex;
+    std::array<double, max_edges + 1> leg;
+    double length = 0;
   };
-  const auto length = [&](const std::array<double, max_edges>& t) {
-    double sum = 0;
-    for (std::size_t i = 0; i <= edge_count_; ++i) sum += distance(vertex(i, t), vertex(i + 1, t));
-    return sum;
+  const auto walk = [&](const std::array<double, max_edges>& t, Way& way) {
+    way.length = 0;
+    for (std::size_t i = 0; i < edge_count_; ++i) way.vertex[i + 1] = edges_[i].point(t[i]);
+    for (std::size_t i = 0; i <= edge_count_; ++i)
+      way.length += way.leg[i] = distance(way.vertex[i], way.vertex[i + 1]);
   };
-  double current = length(along);
+  Way way, shorter;
+  way.vertex[0] = shorter.vertex[0] = image_;
+  way.vertex[edge_count_ + 1] = shorter.vertex[edge_count_ + 1] = receiver;
+  walk(along, way);
   for (int iteration = 0; iteration < 60; ++iteration) {
     std::array<double, max_edges> gradient{}, diagonal{}, upper{};
     for (std::size_t leg = 0; leg <= edge_count_; ++leg) {
-      const Vec3 way = vertex(leg + 1, along) - vertex(leg, along);
-      const double s = norm(way);
+      const double s = way.leg[leg];
       if (s < shortest_leg) return false;
-      const Vec3 u = way / s;
+      const double inverse = 1 / s;
+      const Vec3 u = inverse * (way.vertex[leg + 1] - way.vertex[leg]);
       const double a = leg > 0 ? dot(u, edges_[leg - 1].direction) : 0;
       const double b = leg < edge_count_ ? dot(u, edges_[leg].direction) : 0;
       if (leg > 0) {
         gradient[leg - 1] -= a;
-        diagonal[leg - 1] += (1 - a * a) / s;
+        diagonal[leg - 1] += (1 - a * a) * inverse;
       }
       if (leg < edge_count_) {
         gradient[leg] += b;
-        diagonal[leg] += (1 - b * b) / s;
+        diagonal[leg] += (1 - b * b) * inverse;
       }
       if (leg > 0 && leg < edge_count_)
-        upper[leg - 1] = (a * b - dot(edges_[leg - 1].direction, edges_[leg].direction)) / s;
+        upper[leg - 1] = (a * b - dot(edges_[leg - 1].direction, edges_[leg].direction)) * inverse;
     }
     // Thomas' algorithm; the Hessian is positive definite unless the path runs along an edge.
     std::array<double, max_edges> d = diagonal, step{};
@@ -131,20 +226,19 @@ bool UnfoldedSequence::fermat_points(const Vec3& receiver, std::array<double, ma
     }
     // A full Newton step, halved while it does not shorten the way.
     std::array<double, max_edges> next;
-    double shorter = current;
     for (double share = 1; share > 1e-9; share *= 0.5) {
       for (std::size_t i = 0; i < edge_count_; ++i) next[i] = along[i] + share * step[i];
-      shorter = length(next);
-      if (shorter <= current) break;
+      walk(next, shorter);
+      if (shorter.length <= way.length) break;
     }
-    if (shorter > current) return false;
+    if (shorter.length > way.length) return false;
     along = next;
-    current = shorter;
+    way = shorter;
   }
   return false;
 }
 
-bool UnfoldedSequence::passage(std::size_t i, const Vec3& before, double along, const Vec3& after,
+bool UnfoldedSequence::passage(std::size_t i, const Vec3& before, double along, const Vec3& after, double wavelength,
                                EdgePassage& out) const {
   const UnfoldedEdge& edge = edges_[i];
   const Wedge& wedge = scene_->wedges.wedges[edge.wedge];
@@ -160,21 +254,28 @@ bool UnfoldedSequence::passage(std::size_t i, const Vec3& before, double along, 
   if (out.sin_beta < along_edge) return false;
   // Rounding may put an end that lies on face 0 a hair below it.
   constexpr double rounding = 1e-9;
-  for (auto [way, phi] : {std::pair{&in, &out.phi_in}, std::pair{&away, &out.phi_out}}) {
-    *phi = std::atan2(dot(*way, edge.normal0), dot(*way, edge.along0));
-    if (*phi < -rounding) *phi += 2 * pi;
-    if (*phi > wedge.exterior_angle + rounding) return false;
-    *phi = std::clamp(*phi, 0.0, wedge.exterior_angle);
+  for (const Vec3* way : {&in, &away}) {
+    const double hair = -10 * rounding * (std::abs(way->x) + std::abs(way->y) + std::abs(way->z));
+    if (dot(*way, edge.normal0) < hair && dot(*way, edge.normaln) < hair) return false;
   }
   out.inside = along >= 0 && along <= wedge.length;
   const double over = out.s_in + out.s_out;
   const Vec3 ends[2] = {edge.start, edge.point(wedge.length)};
   out.detour_start = std::max(0.0, distance(before, ends[0]) + distance(ends[0], after) - over);
   out.detour_end = std::max(0.0, distance(before, ends[1]) + distance(ends[1], after) - over);
+  if (!out.inside && 2 * std::sqrt((along < 0 ? out.detour_start : out.detour_end) / wavelength) >= end_parameter_limit)
+    return false;
+  for (auto [way, phi] : {std::pair{&in, &out.phi_in}, std::pair{&away, &out.phi_out}}) {
+    *phi = std::atan2(dot(*way, edge.normal0), dot(*way, edge.along0));
+    if (*phi < -rounding) *phi += 2 * pi;
+    if (*phi > wedge.exterior_angle + rounding) return false;
+    *phi = std::clamp(*phi, 0.0, wedge.exterior_angle);
+  }
   return true;
 }
 
-bool UnfoldedSequence::mirror_points(std::size_t first, std::size_t last, PathGeometry& geometry) const {
+bool UnfoldedSequence::mirror_points(std::size_t first, std::size_t last, PathGeometry& geometry,
+                                     bool in_planes) const {
   // Interactions first … last−1 are faces between the vertices points[first] and points[last + 1] (points[i + 1]
   // belongs to interaction i): images of the first vertex, then back from the last one.
   std::array<Vec3, max_depth + 1> images;
@@ -189,14 +290,14 @@ bool UnfoldedSequence::mirror_points(std::size_t first, std::size_t last, PathGe
     if (!(above * below < 0)) return false;
     const Vec3 point = to + (above / (above - below)) * (images[i] - to);
     constexpr double slack = 0.01;  // bounding boxes only sort out; the ray decides
-    for (int axis = 0; axis < 3; ++axis)
+    for (int axis = 0; axis < 3 && !in_planes; ++axis)
       if (point[axis] < patch.low[axis] - slack || point[axis] > patch.high[axis] + slack) return false;
     geometry.points[i + 1] = to = point;
   }
   return true;
 }
 
-bool UnfoldedSequence::solve(const Vec3& receiver, double wavelength, PathGeometry& geometry) {
+bool UnfoldedSequence::solve(const Vec3& receiver, double wavelength, PathGeometry& geometry, bool in_planes) {
   if (!possible_) return false;
   const std::size_t n = interactions_.size();
   geometry.count = n + 2;
@@ -205,7 +306,7 @@ bool UnfoldedSequence::solve(const Vec3& receiver, double wavelength, PathGeomet
   geometry.points[n + 1] = receiver;
   if (edge_count_ == 0) {
     geometry.length = distance(image_, receiver);
-    return geometry.length > shortest_leg && mirror_points(0, n, geometry);
+    return geometry.length > shortest_leg && mirror_points(0, n, geometry, in_planes);
   }
   std::array<double, max_edges> along{};
   if (!fermat_points(receiver, along)) return false;
@@ -214,14 +315,9 @@ bool UnfoldedSequence::solve(const Vec3& receiver, double wavelength, PathGeomet
   for (std::size_t i = 0; i < edge_count_; ++i) {
     const Vec3 after = i + 1 < edge_count_ ? edges_[i + 1].point(along[i + 1]) : receiver;
     EdgePassage& passed = geometry.edges[i];
-    if (!passage(i, before, along[i], after, passed)) return false;
+    if (!passage(i, before, along[i], after, wavelength, passed)) return false;
     const Wedge& wedge = scene_->wedges.wedges[passed.wedge];
-    double seen = along[i];
-    if (!passed.inside) {
-      const double detour = along[i] < 0 ? passed.detour_start : passed.detour_end;
-      if (2 * std::sqrt(detour / wavelength) >= end_parameter_limit) return false;
-      seen = std::clamp(along[i], 0.0, wedge.length);
-    }
+    const double seen = std::clamp(along[i], 0.0, wedge.length);
     geometry.points[edges_[i].position + 1] = wedge.point(seen);
     geometry.length += passed.s_in;
     before = edges_[i].point(along[i]);
@@ -230,7 +326,7 @@ bool UnfoldedSequence::solve(const Vec3& receiver, double wavelength, PathGeomet
   std::size_t first = 0;
   for (std::size_t i = 0; i <= edge_count_; ++i) {
     const std::size_t last = i < edge_count_ ? edges_[i].position : n;
-    if (last > first && !mirror_points(first, last, geometry)) return false;
+    if (last > first && !mirror_points(first, last, geometry, in_planes)) return false;
     first = last + 1;
   }
   // Two edges of one corner, both passed at the corner itself, leave no leg between them.

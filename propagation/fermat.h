@@ -52,18 +52,32 @@ class UnfoldedSequence {
   /// one edge in closed form (the two half-planes through the edge unfolded); more by Newton on the length, which is
   /// convex, until the step is below 1e-12 of the length. Newton starts from the last solution of this object, so that
   /// neighbouring receivers cost one or two steps; the solution itself is the same to 1e-9 m.
-  bool solve(const Vec3& receiver, double wavelength, PathGeometry& geometry);
+  bool solve(const Vec3& receiver, double wavelength, PathGeometry& geometry) {
+    return solve(receiver, wavelength, geometry, false);
+  }
+
+  /// Newton for the next receiver starts from these places along the edges, m (of two and more).
+  void begin_at(std::span<const double> along);
+
+  /// The same with every face taken as the whole of its plane.
+  bool solve_in_planes(const Vec3& receiver, double wavelength, PathGeometry& geometry) {
+    return solve(receiver, wavelength, geometry, true);
+  }
 
  private:
   struct UnfoldedEdge {
     std::uint32_t wedge;
     std::size_t position;  ///< in the sequence
-    Vec3 start, direction, along0, normal0;
+    Vec3 start, direction, along0, normal0, normaln;
     Vec3 point(double t) const { return start + t * direction; }
   };
   bool fermat_points(const Vec3& receiver, std::array<double, max_edges>& along);
-  bool passage(std::size_t i, const Vec3& before, double along, const Vec3& after, EdgePassage& out) const;
-  bool mirror_points(std::size_t first, std::size_t last, PathGeometry& geometry) const;
+  void look_from(double along1, double along2);
+  bool two_fermat_points(const Vec3& receiver, double& along1, double& along2);
+  bool passage(std::size_t i, const Vec3& before, double along, const Vec3& after, double wavelength,
+               EdgePassage& out) const;
+  bool solve(const Vec3& receiver, double wavelength, PathGeometry& geometry, bool in_planes);
+  bool mirror_points(std::size_t first, std::size_t last, PathGeometry& geometry, bool in_planes) const;
 
   const Scene* scene_;
   std::span<const Interaction> interactions_;
@@ -71,6 +85,13 @@ class UnfoldedSequence {
   std::array<UnfoldedEdge, max_edges> edges_;
   std::size_t edge_count_ = 0;
   bool possible_ = true;
+  /// Two edges as seen from a point on each, near the path: t counts from there. The squared distance of their points
+  /// is apart² + t₁² + t₂² − 2 cosine t₁t₂ + 2 offset2 t₂ − 2 offset1 t₁.
+  struct {
+    double from1, from2;  ///< of those points along their edges, m
+    double cosine, offset1, offset2, apart2;
+    double source_along, source_off;  ///< axial and radial coordinates of the image about the first edge
+  } pair_{};
   std::array<double, max_edges> last_{};  ///< where Newton ended
   bool has_last_ = false;
 };

@@ -214,8 +214,6 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
       if (radio) {
         Complex beta = incident * dot(e, in.beta), phi = incident * dot(e, in.phi);
         if (faces) {
-          const double n = wedge.exterior_angle;
-          const Vec3 normaln = std::sin(n) * wedge.along0 - std::cos(n) * wedge.normal0;
           const Complex e_beta = dot(e, in.beta), e_phi = dot(e, in.phi);
           const auto add_image = [&](Boundary boundary, const Vec3& normal, std::uint32_t material) {
             const Dyadic d = reciprocal_image(plan, material, band, wedge.direction, k[i], k[i + 1], normal);
@@ -224,7 +222,7 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
             phi += u * (d.pb * e_beta + d.pp * e_phi);
           };
           add_image(Boundary::face0, wedge.normal0, wedge.material0);
-          if (!wedge.free_rim) add_image(Boundary::facen, normaln, wedge.materialn);
+          if (!wedge.free_rim) add_image(Boundary::facen, wedge.normaln(), wedge.materialn);
         }
         e = weight * combine(beta, out.beta, phi, out.phi);
       } else {

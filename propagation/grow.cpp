@@ -28,6 +28,7 @@ struct Workspace {
 
 struct BlockPairs {
   std::vector<Pair> pairs;
+  std::vector<BlockedPath> blocked;
   std::uint64_t shadow_rays = 0;
 };
 
@@ -50,8 +51,18 @@ class Grower {
     UnfoldedSequence unfolded(scene_, transmitter_.position, interactions);
     if (!unfolded.possible()) return;
     if (work.visited.empty()) work.visited.assign(grid_.layout.size(), 0);
-    const bool may_be_negligible = interactions.size() >= 2 && count_edges(interactions) > 0;
     ++work.growth;
+    std::vector<Seed> more;
+    if (count_edges(interactions) == 0 && may_be_led_around(interactions)) {
+      std::uint32_t passes = 0;
+      for (const Seed* seed = first; seed != last; ++seed) passes |= seed->passes;
+      more.assign(first, last);
+      in_its_planes(sequence, work, more);
+      for (Seed& seed : more) seed.passes = passes;
+      std::stable_sort(more.begin(), more.end(), [](const Seed& a, const Seed& b) { return a.cell < b.cell; });
+      first = more.data();
+      last = first + more.size();
+    }
     for (const Seed* seed = first; seed != last; ++seed) {
       if (work.visited[seed->cell] == work.growth) continue;
       const std::size_t begin = out.pairs.size();
@@ -62,7 +73,7 @@ class Grower {
         const std::uint32_t cell = work.frontier.back();
         work.frontier.pop_back();
         Pair pair{cell, sequence, 0, 0, 0};
-        const Answer answer = arrive(unfolded, interactions, may_be_negligible, work, pair, out.shadow_rays);
+        const Answer answer = arrive(unfolded, interactions, work, pair, out);
         const bool arrives = answer == Answer::arrives;
         const Seed* here =
             std::lower_bound(seed, last, cell, [](const Seed& s, std::uint32_t c) { return s.cell < c; });
@@ -77,36 +88,65 @@ class Grower {
     }
   }
 
+  /// Cells, one in each tile of 3 × 3, that a sequence of faces alone would reach if nothing stood in the way.
+  void in_its_planes(std::uint32_t sequence, Workspace& work, std::vector<Seed>& seeds) const {
+    UnfoldedSequence unfolded(scene_, transmitter_.position, discovered_.sequences[sequence]);
+    for (std::size_t y = 1; y < grid_.layout.ny; y += 3)
+      for (std::size_t x = 1; x < grid_.layout.nx; x += 3) {
+        const std::size_t cell = y * grid_.layout.nx + x;
+        if (grid_.of(cell).empty()) continue;
+        if (unfolded.solve(grid_.layout.centre(cell), wavelength_, work.geometry))
+          seeds.push_back({sequence, static_cast<std::uint32_t>(cell), 0, false, 0});
+      }
+  }
+
   /// The direct wave in one cell.
   void direct(std::uint32_t cell, Workspace& work, BlockPairs& out) const {
     UnfoldedSequence unfolded(scene_, transmitter_.position, {});
     Pair pair{cell, 0, 0, ~0u, 0};
-    if (arrive(unfolded, {}, false, work, pair, out.shadow_rays) == Answer::arrives) out.pairs.push_back(pair);
+    if (arrive(unfolded, {}, work, pair, out) == Answer::arrives) out.pairs.push_back(pair);
   }
 
   /// True if one of every ninth of the cell's points (or of fewer points all) sees the transmitter.
-  bool sees_transmitter(std::size_t cell, std::uint64_t& shadow_rays) const {
+  bool sees_transmitter(std::uint32_t cell, BlockPairs& out) const {
     const auto points = grid_.of(cell);
     const Vec3 centre = grid_.layout.centre(cell);
     const std::size_t step = points.size() < 9 ? 1 : 9;
     for (std::size_t i = step / 2; i < points.size(); i += step) {
-      ++shadow_rays;
+      ++out.shadow_rays;
       if (tracer_.visible(transmitter_.position, centre + points[i].offset)) return true;
     }
     return false;
   }
 
+  /// A cell that does not see the transmitter.
+  void direct_blocked(std::uint32_t cell, BlockPairs& out) const {
+    const auto points = grid_.of(cell);
+    if (!points.empty() && may_be_led_around({}))
+      out.blocked.push_back(blocked_path({cell, 0, 0, ~0u, 0}, 0, points.size() / 2));
+  }
+
  private:
   enum class Answer { arrives, blocked, negligible };
 
-  Answer arrive(UnfoldedSequence& unfolded, std::span<const Interaction> interactions, bool may_be_negligible,
-                Workspace& work, Pair& pair, std::uint64_t& shadow_rays) const {
+  bool may_be_led_around(std::span<const Interaction> interactions) const {
+    return plan_.request.diffraction && static_cast<int>(interactions.size()) < plan_.request.depth &&
+           static_cast<int>(count_edges(interactions)) < plan_.request.max_diffractions;
+  }
+
+  static BlockedPath blocked_path(const Pair& pair, std::size_t leg, std::size_t point) {
+    return {pair.sequence, pair.cell, static_cast<std::uint8_t>(leg), static_cast<std::uint8_t>(point)};
+  }
+
+  Answer arrive(UnfoldedSequence& unfolded, std::span<const Interaction> interactions, Workspace& work, Pair& pair,
+                BlockPairs& out) const {
     const auto points = grid_.of(pair.cell);
     const Vec3 centre = grid_.layout.centre(pair.cell);
     work.field.resize(plan_.bands());
-    const double threshold = may_be_negligible ? negligible_share * known_[pair.cell] : 0;
-    double power = 0, strength = 0;
     const bool edges = count_edges(interactions) > 0;
+    const double threshold = edges && interactions.size() >= 2 ? negligible_share * known_[pair.cell] : 0;
+    bool lead_around = may_be_led_around(interactions);
+    double power = 0, strength = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (edges && points[i].edge_weight == 0) continue;
       if (!unfolded.solve(centre + points[i].offset, wavelength_, work.geometry)) continue;
@@ -115,7 +155,12 @@ class Grower {
         if (pair.visible == 0) return Answer::negligible;
         break;
       }
-      if (!connected(scene_, tracer_, interactions, work.geometry, shadow_rays)) continue;
+      if (const auto leg = blocked_leg(scene_, tracer_, interactions, work.geometry, out.shadow_rays)) {
+        // One point's way around serves the cell.
+        if (lead_around) out.blocked.push_back(blocked_path(pair, *leg, i));
+        lead_around = false;
+        continue;
+      }
       if (pair.visible == 0) {
         // The strength at the first point that sees the path speaks for the cell; `evaluate` takes every point for
         // itself.
@@ -161,6 +206,7 @@ void in_blocks(std::size_t blocks, unsigned threads, std::vector<Workspace>& spa
       blocks, threads, [&](std::size_t block, unsigned thread) { work(block, spaces[thread], found[block]); }, stop);
   for (const BlockPairs& block : found) {
     grown.pairs.insert(grown.pairs.end(), block.pairs.begin(), block.pairs.end());
+    grown.blocked.insert(grown.blocked.end(), block.blocked.begin(), block.blocked.end());
     grown.shadow_rays += block.shadow_rays;
   }
 }
@@ -183,10 +229,10 @@ struct SeededSequence {
   int stage;
 };
 
-/// All sequences with seeds from number `from` on, strongest stage first, else in their order.
-std::vector<SeededSequence> seeded_sequences(const std::vector<Seed>& seeds, std::size_t from) {
+/// All sequences with seeds, strongest stage first, else in their order.
+std::vector<SeededSequence> seeded_sequences(const std::vector<Seed>& seeds) {
   std::vector<SeededSequence> found;
-  for (std::size_t first = from, last = from; first < seeds.size(); first = last) {
+  for (std::size_t first = 0, last = 0; first < seeds.size(); first = last) {
     float gain = 0;
     for (; last < seeds.size() && seeds[last].sequence == seeds[first].sequence; ++last)
       gain = std::max(gain, seeds[last].gain);
@@ -196,12 +242,31 @@ std::vector<SeededSequence> seeded_sequences(const std::vector<Seed>& seeds, std
   return found;
 }
 
+/// Sorted by cell, then sequence.
+bool comes_before(const Pair& a, const Pair& b) { return a.cell != b.cell ? a.cell < b.cell : a.sequence < b.sequence; }
+
+/// The seeds from number `first` on without those whose pairs there are: these pairs were found by their passes too.
+std::vector<Seed> unasked(const std::vector<Seed>& seeds, std::size_t first, std::vector<Pair>& pairs) {
+  std::vector<Seed> left;
+  for (std::size_t i = first; i < seeds.size(); ++i) {
+    const Pair wanted{seeds[i].cell, seeds[i].sequence, 0, 0, 0};
+    const auto there = std::lower_bound(pairs.begin(), pairs.end(), wanted, comes_before);
+    if (there != pairs.end() && !comes_before(wanted, *there))
+      there->passes |= seeds[i].passes;
+    else
+      left.push_back(seeds[i]);
+  }
+  return left;
+}
+
 }  // namespace
 
 void grow(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter, const CoverageGrid& grid,
-          const Discovered& discovered, std::size_t first_sequence, Grown& grown,
+          const Discovered& discovered, std::size_t first_seed, Grown& grown,
           const std::function<void(double)>& progress, const std::atomic<bool>* stop) {
   const unsigned threads = plan.request.threads ? plan.request.threads : hardware_threads();
+  grown.blocked.clear();
+  const bool first_growth = grown.known.empty();
   grown.known.resize(grid.layout.size(), 0);
   std::vector<double>& known = grown.known;
   const Grower grower(scene, tracer, plan, transmitter, grid, discovered, known);
@@ -209,31 +274,26 @@ void grow(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_
   const auto learn = [&](std::size_t from) {
     for (std::size_t i = from; i < grown.pairs.size(); ++i) known[grown.pairs[i].cell] += grown.pairs[i].power;
   };
-  if (plan.request.direct && first_sequence == 0) {
+  if (plan.request.direct && first_growth) {
     // A few points of each cell first; all of them where one of those, or a neighbour's, sees the transmitter.
     const std::size_t cells = grid.layout.size(), blocks = (cells + cells_per_block - 1) / cells_per_block;
     std::vector<std::uint8_t> near(cells, 0);
-    std::vector<std::uint64_t> rays(blocks, 0);
-    for_each_block(
-        blocks, threads,
-        [&](std::size_t block, unsigned) {
-          for (std::size_t cell = block * cells_per_block; cell < std::min(cells, (block + 1) * cells_per_block);
-               ++cell)
-            near[cell] = grower.sees_transmitter(cell, rays[block]);
-        },
-        stop);
-    for (const std::uint64_t asked : rays) grown.shadow_rays += asked;
+    const auto each_cell = [&](const auto& act) {
+      in_blocks(blocks, threads, spaces, stop, grown, [&](std::size_t block, Workspace& work, BlockPairs& out) {
+        for (std::size_t cell = block * cells_per_block; cell < std::min(cells, (block + 1) * cells_per_block); ++cell)
+          act(static_cast<std::uint32_t>(cell), work, out);
+      });
+    };
+    each_cell(
+        [&](std::uint32_t cell, Workspace&, BlockPairs& out) { near[cell] = grower.sees_transmitter(cell, out); });
     near = with_neighbours(near, grid.layout);
-    in_blocks(blocks, threads, spaces, stop, grown, [&](std::size_t block, Workspace& work, BlockPairs& out) {
-      for (std::size_t cell = block * cells_per_block; cell < std::min(cells, (block + 1) * cells_per_block); ++cell)
-        if (near[cell]) grower.direct(static_cast<std::uint32_t>(cell), work, out);
+    each_cell([&](std::uint32_t cell, Workspace& work, BlockPairs& out) {
+      near[cell] ? grower.direct(cell, work, out) : grower.direct_blocked(cell, out);
     });
     learn(0);
   }
-  const std::vector<Seed>& seeds = discovered.seeds;
-  const auto new_seeds =
-      std::partition_point(seeds.begin(), seeds.end(), [&](const Seed& s) { return s.sequence < first_sequence; });
-  std::vector<SeededSequence> found = seeded_sequences(seeds, static_cast<std::size_t>(new_seeds - seeds.begin()));
+  const std::vector<Seed> seeds = unasked(discovered.seeds, first_seed, grown.pairs);
+  std::vector<SeededSequence> found = seeded_sequences(seeds);
   for (std::size_t begin = 0, end = 0; begin < found.size() && !(stop && *stop); begin = end) {
     while (end < found.size() && found[end].stage == found[begin].stage) ++end;
     const std::size_t before = grown.pairs.size();
@@ -248,8 +308,7 @@ void grow(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_
     learn(before);
     if (progress) progress(double(end) / double(found.size()));
   }
-  std::sort(grown.pairs.begin(), grown.pairs.end(),
-            [](const Pair& a, const Pair& b) { return a.cell != b.cell ? a.cell < b.cell : a.sequence < b.sequence; });
+  std::sort(grown.pairs.begin(), grown.pairs.end(), comes_before);
 }
 
 }  // namespace grimaldi

@@ -17,14 +17,17 @@ namespace grimaldi {
 /// A sequence that arrives in a cell.
 struct Pair {
   std::uint32_t cell, sequence;
-  std::uint64_t visible;  ///< sub-points (bits) where it arrives; a path with an edge is asked at edges' points alone
-  std::uint32_t passes;   ///< passes (bits) that found the patch of cells that this one belongs to
-  float power;            ///< about its mean power over the cell at the first band, 1 or m⁻²
+  std::uint64_t visible;    ///< sub-points (bits) where it arrives; a path with an edge is asked at edges' points alone
+  std::uint32_t passes;     ///< passes (bits) that found the patch of cells that this one belongs to
+  float power;              ///< about its mean power over the cell at the first band, 1 or m⁻²
+  std::uint64_t dense = 0;  ///< dense sub-points (bits) where it arrives, if `refined`
+  bool refined = false;     ///< its power is that over the dense points, in place of the coarse ones
 };
 
 struct Grown {
-  std::vector<Pair> pairs;    ///< sorted by cell, then sequence
-  std::vector<double> known;  ///< per cell, mean power so far at the first band
+  std::vector<Pair> pairs;           ///< sorted by cell, then sequence
+  std::vector<BlockedPath> blocked;  ///< of the last growth: paths with room for one more edge
+  std::vector<double> known;         ///< per cell, mean power so far at the first band
   std::uint64_t shadow_rays = 0;
 };
 
@@ -33,12 +36,12 @@ struct Grown {
 /// edges, of which those below this bound carry 0.1 dB together.
 inline constexpr double negligible_share = 1e-3;
 
-/// Grows the sequences of `discovered` from number `first_sequence` on and adds them to `grown`, strongest first by the
-/// beams' estimate, in stages of 10 dB: a stage knows the power that the ones before it brought to each cell
-/// (`negligible_share`). The empty sequence, if among them, asks every cell. Cells wholly inside a solid are not asked.
-/// Independent of the number of threads.
+/// Grows sequences from the seeds of `discovered` from number `first_seed` on (sorted by sequence, then cell) and adds
+/// them to `grown`, strongest first by the seeds' estimate, in stages of 10 dB: a stage knows the power that the ones
+/// before it brought to each cell (`negligible_share`). In the first growth the empty sequence asks every cell. Cells
+/// wholly inside a solid are not asked. Independent of the number of threads.
 void grow(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter, const CoverageGrid& grid,
-          const Discovered& discovered, std::size_t first_sequence, Grown& grown,
+          const Discovered& discovered, std::size_t first_seed, Grown& grown,
           const std::function<void(double)>& progress, const std::atomic<bool>* stop);
 
 }  // namespace grimaldi

@@ -9,8 +9,7 @@
 namespace grimaldi {
 
 Vec3 outside_of_edge(const Tracer& tracer, const Wedge& wedge, const Vec3& point) {
-  const double half = 0.5 * wedge.exterior_angle;
-  return point + 3 * tracer.surface_gap() * (std::cos(half) * wedge.along0 + std::sin(half) * wedge.normal0);
+  return point + 3 * tracer.surface_gap() * wedge.bisector();
 }
 
 LitEdges::LitEdges(const Scene& scene, const Plan& plan, const Transmitter& transmitter, double wavelength, int before,

@@ -151,7 +151,8 @@ Plan make_plan(const PlanDescription& description, const Scene& scene, const Tra
   }
   plan.materials = face_materials(plan, scene, diagnostics);
   if (description.coverage && std::isfinite(description.coverage->cell_size)) {
-    const double sub_points = sub_points_a_side * sub_points_a_side + std::pow(edge_sub_points_a_side(description), 2);
+    const double sub_points = sub_points_a_side * sub_points_a_side + std::pow(edge_sub_points_a_side(description), 2) +
+                              std::pow(dense_sub_points_a_side(description), 2);
     // Layers, gain, error, bias and delays per transmitter and band; the sub-points; the walk's bookkeeping.
     const std::size_t bytes = description.transmitters.size() * plan.bands() * (mechanism_count + 5) * sizeof(double) +
                               static_cast<std::size_t>(sub_points) * sizeof(SubPoint) + 64;

@@ -12,6 +12,7 @@
 #include "propagation/connect.h"
 #include "propagation/fermat.h"
 #include "propagation/field.h"
+#include "propagation/path_search.h"
 
 namespace grimaldi {
 namespace {
@@ -37,16 +38,16 @@ std::string interaction_tokens(const Scene& scene, std::span<const Interaction> 
   return text;
 }
 
-/// The paths of one receiver, in the order of the sequences.
-std::vector<Arrival> arrivals_at(const Scene& scene, const Tracer& tracer, const Plan& plan,
-                                 const Transmitter& transmitter, const Vec3& position, const Discovered& discovered,
-                                 std::uint64_t& shadow_rays, const std::atomic<bool>* stop) {
+/// Adds the paths of one receiver, in the order of the sequences.
+void add_arrivals(const Scene& scene, const Tracer& tracer, const Plan& plan, const Transmitter& transmitter,
+                  const Vec3& position, const SequenceTable& sequences, std::vector<Arrival>& all,
+                  std::uint64_t& shadow_rays, const std::atomic<bool>* stop) {
   struct Found {
     std::vector<Arrival> arrivals;
     std::uint64_t shadow_rays = 0;
   };
   constexpr std::size_t block_size = 4096;
-  const std::size_t count = discovered.sequences.size(), blocks = (count + block_size - 1) / block_size;
+  const std::size_t count = sequences.size(), blocks = (count + block_size - 1) / block_size;
   const double wavelength = 2 * pi / plan.wavenumber.front();
   std::vector<Found> found(blocks);
   for_each_block(
@@ -54,13 +55,13 @@ std::vector<Arrival> arrivals_at(const Scene& scene, const Tracer& tracer, const
       [&](std::size_t block, unsigned) {
         Arrival arrival;
         for (std::size_t s = block * block_size; s < std::min(count, (block + 1) * block_size); ++s) {
-          const auto interactions = discovered.sequences[s];
+          const auto interactions = sequences[s];
           if (interactions.empty() && !plan.request.direct) continue;
           UnfoldedSequence unfolded(scene, transmitter.position, interactions);
           if (!unfolded.solve(position, wavelength, arrival.geometry)) continue;
           if (!connected(scene, tracer, interactions, arrival.geometry, found[block].shadow_rays)) continue;
           arrival.sequence = static_cast<std::uint32_t>(s);
-          arrival.hash = discovered.sequences.hash(s);
+          arrival.hash = sequences.hash(s);
           arrival.interactions = interactions;
           arrival.field.resize(plan.bands());
           path_field(scene, plan, transmitter, interactions, arrival.geometry, arrival.field);
@@ -68,12 +69,10 @@ std::vector<Arrival> arrivals_at(const Scene& scene, const Tracer& tracer, const
         }
       },
       stop);
-  std::vector<Arrival> all;
   for (Found& block : found) {
     std::move(block.arrivals.begin(), block.arrivals.end(), std::back_inserter(all));
     shadow_rays += block.shadow_rays;
   }
-  return all;
 }
 
 void delay_statistics(const std::vector<Arrival>& arrivals, const Plan& plan, Polarisation polarisation,
@@ -163,13 +162,21 @@ std::vector<ReceiverProfile> empty_profiles(const Plan& plan) {
 }
 
 std::uint64_t connect_receivers(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
-                                const Discovered& discovered, std::vector<ReceiverProfile>& profiles,
+                                const SequenceTable& sequences, std::vector<ReceiverProfile>& profiles,
                                 const std::atomic<bool>* stop) {
   std::uint64_t shadow_rays = 0;
   for (std::size_t r = 0; r < plan.request.receivers.size(); ++r) {
     const Receiver& receiver = plan.request.receivers[r];
-    const auto arrivals = arrivals_at(scene, tracer, plan, plan.request.transmitters[transmitter], receiver.position,
-                                      discovered, shadow_rays, stop);
+    const Transmitter& source = plan.request.transmitters[transmitter];
+    std::vector<Arrival> arrivals;
+    add_arrivals(scene, tracer, plan, source, receiver.position, sequences, arrivals, shadow_rays, stop);
+    SequenceTable around;
+    if (plan.request.diffraction && plan.request.max_diffractions > 0 && plan.request.depth > 0) {
+      double power = 0;
+      for (const Arrival& arrival : arrivals) power += received_power(arrival.field[0], Polarisation::both);
+      around = search_for_point(scene, tracer, plan, transmitter, receiver.position, power, sequences, stop);
+      add_arrivals(scene, tracer, plan, source, receiver.position, around, arrivals, shadow_rays, stop);
+    }
     if (stop && *stop) break;
     add_transmitter(scene, plan, transmitter, receiver, arrivals, profiles[r]);
   }

@@ -23,7 +23,7 @@ inline constexpr const char* mechanism_names[mechanism_count] = {"direct",      
 struct CoverageMap {
   std::vector<double> path_gain;         ///< [T][F][cells]; NaN = wholly inside a solid, 0 = asked and nothing arrived
   std::vector<double> standard_error;    ///< [T][F][cells]; same unit as path_gain
-  std::vector<double> bias;              ///< [T][F][cells]; jackknife's estimate of the gain not yet found, ≥ 0
+  std::vector<double> bias;              ///< [T][F][cells]; estimate of the gain not yet found, ≥ 0
   std::vector<double> mechanism_gain;    ///< [T][M][F][cells]
   std::vector<double> mean_delay;        ///< [T][F][cells], s; NaN where nothing arrived
   std::vector<double> rms_delay_spread;  ///< [T][F][cells], s; NaN where nothing arrived

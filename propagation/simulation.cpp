@@ -11,7 +11,10 @@
 #include "propagation/discover.h"
 #include "propagation/evaluate.h"
 #include "propagation/grow.h"
+#include "propagation/look_back.h"
+#include "propagation/path_search.h"
 #include "propagation/power_delay_profile.h"
+#include "propagation/refine.h"
 
 namespace grimaldi {
 namespace {
@@ -76,12 +79,14 @@ Result simulate(const Scene& scene, const Tracer& tracer, const Plan& asked, con
       };
       Discovered discovered;
       Grown grown;
-      // Paths of at most one edge first; then, where it is known what they bring, those of more.
+      // Paths of at most one edge first; then, where it is known what they bring, those of more. What stands in the way
+      // of a path is gone around by one more edge.
       const int most_edges = plan.request.diffraction ? std::min(plan.request.depth, plan.request.max_diffractions) : 0;
       const bool twice = plan.request.coverage && most_edges > 1;
       for (int search = 0; search < (twice ? 2 : 1) && !stopped(); ++search) {
         const double from = twice ? 0.3 * search : 0, size = twice ? 0.3 + 0.2 * search : 0.8;
-        const std::size_t first_sequence = discovered.sequences.size();
+        const int most = twice && search == 0 ? 1 : most_edges;
+        std::size_t first_seed = 0;
         {
           const StageClock stage(figures.discover_seconds);
           Search wanted;
@@ -92,12 +97,17 @@ Result simulate(const Scene& scene, const Tracer& tracer, const Plan& asked, con
           if (search == 0)
             discovered = std::move(found);
           else
-            discovered.append(found);
+            first_seed = discovered.append(found);
         }
         if (!plan.request.coverage || stopped()) continue;
         const StageClock stage(figures.grow_seconds);
-        grow(scene, tracer, plan, t, grid, discovered, search == 0 ? 0 : first_sequence, grown,
-             report("grow", from + 0.5 * size, from + size), stop);
+        if (search == 0) look_back(scene, tracer, plan, t, grid, discovered, stop);
+        grow_and_lead_around(scene, tracer, plan, t, grid, first_seed, most, discovered, grown,
+                             report("grow", from + 0.5 * size, from + size), stop);
+      }
+      if (plan.request.coverage && !stopped()) {
+        const StageClock stage(figures.grow_seconds);
+        refine(scene, tracer, plan, t, grid, discovered, grown, stop);
       }
       figures.merge_seconds += discovered.merge_seconds;
       figures.rays += discovered.rays;
@@ -116,7 +126,7 @@ Result simulate(const Scene& scene, const Tracer& tracer, const Plan& asked, con
       }
       if (!plan.request.receivers.empty() && !stopped()) {
         const StageClock stage(figures.evaluate_seconds);
-        figures.shadow_rays += connect_receivers(scene, tracer, plan, t, discovered, result.profiles, stop);
+        figures.shadow_rays += connect_receivers(scene, tracer, plan, t, discovered.sequences, result.profiles, stop);
       }
     }
   }

@@ -84,8 +84,10 @@ std::string summary_json(const Plan& plan, const Result& result, const std::vect
   summary["cells_reached"] = map.reached;
   summary["median_standard_error_dB"] = map.median_standard_error_dB;
   summary["flux"] = flux;
-  summary["stage_seconds"] = {{"discover", run.discover_seconds}, {"merge", run.merge_seconds},
-                              {"grow", run.grow_seconds}, {"evaluate", run.evaluate_seconds}};
+  summary["stage_seconds"] = {{"discover", run.discover_seconds},
+                              {"merge", run.merge_seconds},
+                              {"grow", run.grow_seconds},
+                              {"evaluate", run.evaluate_seconds}};
   summary["sequences"] = run.sequences;
   summary["sequence_cell_pairs"] = run.sequence_cell_pairs;
   summary["warnings"] = nlohmann::ordered_json::array();

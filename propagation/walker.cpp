@@ -15,8 +15,6 @@ namespace {
 
 /// Wedges at which a beam that has met faces alone is aimed from each patch that it hits.
 constexpr int aims_before_edge = 3;
-/// Rims of a blocking patch and of its neighbours tried for a way around it.
-constexpr int rims_tried = 4;
 /// Of the azimuth of a wave that runs along a face, rad.
 constexpr double azimuth_rounding = 1e-9;
 /// Paths weaker than the wave at 1 m by this factor (140 dB) are not sought.
@@ -233,8 +231,8 @@ class Walker::Walk {
     records_->seeds.push_back({keep(beam), static_cast<std::uint32_t>(cell), 0, crossed, static_cast<float>(gain)});
   }
 
-  /// Beams leave those edges of the hit triangle that lie in the footprint, and one edge drawn from the rims of the hit
-  /// patch and of the patches next to it (the far side of a roof is grazed, so hardly ever hit).
+  /// Beams leave those edges of the hit triangle that lie in the footprint, and after faces alone some drawn from the
+  /// rims of the hit patch and of the patches next to it (the far side of a roof is grazed, so hardly ever hit).
   void meet_edges(const Beam& beam, const Hit& hit, const Vec3& point, std::uint32_t hit_patch) {
     const Wedges& wedges = scene_.wedges;
     const double reach = footprint_share * std::max(spacing_, coarse_spacing) * (beam.length + hit.distance);
@@ -250,16 +248,14 @@ class Walker::Walk {
       leave_edge(beam, wedge_index, along, hit.distance);
     }
     // Beams that have only been reflected are few, and lead to the strong ones of many edges.
-    const int aims = beam.diffractions == 0 ? aims_before_edge : 1;
-    for (int i = 0; i < aims; ++i) {
+    for (int i = 0; beam.diffractions == 0 && i < aims_before_edge; ++i) {
       const auto u = uniform4(plan_.request.seed, edge_stream, beam_number_, draws_++);
       const std::uint32_t target = pick_near(hit_patch, u);
       if (target != no_index) aim(beam, target, u[3]);
     }
   }
 
-  /// Beams leave a wedge that the beam's last point sees, whichever way the beam went. What stands between is gone
-  /// around.
+  /// Beams leave a wedge that the beam's last point sees, whichever way the beam went.
   void aim(const Beam& beam, std::uint32_t wedge_index, double share) {
     const Wedge& wedge = scene_.wedges.wedges[wedge_index];
     if (beam.depth > 0) {
@@ -269,56 +265,12 @@ class Walker::Walk {
     const double along = share * wedge.length;
     const Vec3 seen = outside(wedge, along);
     ++records_->segments;
-    if (tracer_.visible(beam.origin, seen))
-      leave_edge(beam, wedge_index, along, distance(beam.origin, seen));
-    else
-      go_around(beam, wedge_index, share, seen);
+    if (tracer_.visible(beam.origin, seen)) leave_edge(beam, wedge_index, along, distance(beam.origin, seen));
   }
 
   /// A point of the edge as rays see it: moved out of the solid.
   Vec3 outside(const Wedge& wedge, double along) const {
-    const double half = 0.5 * wedge.exterior_angle;
-    return wedge.point(along) +
-           3 * tracer_.surface_gap() * (std::cos(half) * wedge.along0 + std::sin(half) * wedge.normal0);
-  }
-
-  /// The way to `target` is blocked: try rims of the patch that blocks it, and of its neighbours, as an edge before it.
-  void go_around(const Beam& beam, std::uint32_t target, double share, const Vec3& seen) {
-    if (beam.depth + 2 > plan_.request.depth || beam.diffractions + 2 > most_edges_) return;
-    const double length = distance(beam.origin, seen);
-    const Vec3 direction = (seen - beam.origin) / length;
-    ++records_->segments;
-    const Hit hit = tracer_.nearest(beam.origin, direction, beam.leave0, beam.leave1);
-    if (hit.triangle == no_index || hit.distance > length) return;
-    const std::uint32_t blocking = scene_.patches.triangle_patch[hit.triangle];
-    for (int i = 0; i < rims_tried; ++i) {
-      const auto u = uniform4(plan_.request.seed, edge_stream, beam_number_, draws_++);
-      const std::uint32_t rim = pick_near(blocking, u);
-      if (rim == no_index || rim == target) continue;
-      const Wedge& wedge = scene_.wedges.wedges[rim];
-      if (beam.depth > 0) {
-        const Interaction last = beam.interactions[beam.depth - 1];
-        if (last == wedge.patch0 || last == wedge.patchn || last == edge_interaction(rim)) continue;
-      }
-      // Where the edge comes nearest to the straight way.
-      const double cosine = dot(direction, wedge.direction);
-      const Vec3 offset = wedge.start - beam.origin;
-      const double nearest =
-          (cosine * dot(offset, direction) - dot(offset, wedge.direction)) / std::max(1 - cosine * cosine, 1e-6);
-      const double along = std::clamp(nearest, 0.0, wedge.length);
-      const Vec3 corner = outside(wedge, along);
-      ++records_->segments;
-      if (!tracer_.visible(beam.origin, corner)) continue;
-      const auto passed = pass_edge(beam, rim, along, distance(beam.origin, corner));
-      if (!passed) continue;
-      Beam child = passed->beam;
-      child.direction = normalized(seen - child.origin);
-      double phi = std::atan2(dot(child.direction, wedge.normal0), dot(child.direction, wedge.along0));
-      if (phi < -azimuth_rounding) phi += 2 * pi;
-      if (phi > wedge.exterior_angle + azimuth_rounding) continue;
-      child.strength *= diffracted_strength(wedge, passed->phi_in, phi, passed->sin_beta, child.radius);
-      aim(child, target, share);
-    }
+    return wedge.point(along) + 3 * tracer_.surface_gap() * wedge.bisector();
   }
 
   /// The wedge of a patch, or as often of a patch next to it, that the numbers u name.

@@ -184,7 +184,11 @@ Wedges find_wedges(const std::vector<Vec3>& vertices, const std::vector<std::arr
   result.report = search.report();
   const std::vector<WedgePiece> merged = merge_pieces(search.pieces());
   for (const WedgePiece& piece : merged) {
-    result.wedges.push_back(piece.wedge);
+    Wedge& wedge = result.wedges.emplace_back(piece.wedge);
+    wedge.sin_exterior = std::sin(wedge.exterior_angle);
+    wedge.cos_exterior = std::cos(wedge.exterior_angle);
+    wedge.sin_half = std::sin(0.5 * wedge.exterior_angle);
+    wedge.cos_half = std::cos(0.5 * wedge.exterior_angle);
     add(result.report.propagating, piece.wedge.length);
   }
   keep_corners(vertices.size(), result.wedges);

@@ -27,6 +27,11 @@ struct Wedge {
   std::uint32_t vertex_start, vertex_end;  ///< corners at its ends: welded vertices where another wedge ends too;
                                            ///< no_index where it ends alone
   bool free_rim = false;
+  double sin_exterior = 0, cos_exterior = 1, sin_half = 0, cos_half = -1;  ///< of the exterior angle and of its half
+  Vec3 normaln() const {
+    return sin_exterior * along0 - cos_exterior * normal0;
+  }                                                                         ///< unit, of face n, into the exterior
+  Vec3 bisector() const { return cos_half * along0 + sin_half * normal0; }  ///< unit, of the exterior
   Vec3 end() const { return start + length * direction; }
   Vec3 point(double t) const { return start + t * direction; }  ///< t in m
 };

@@ -1,0 +1,58 @@
+#include "propagation/path_search.h"
+
+#include <algorithm>
+
+#include "propagation/detour.h"
+#include "propagation/look_back.h"
+
+namespace grimaldi {
+
+void grow_and_lead_around(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
+                          const CoverageGrid& grid, std::size_t first_seed, int most_edges, Discovered& discovered,
+                          Grown& grown, const std::function<void(double)>& progress, const std::atomic<bool>* stop) {
+  for (bool more = true; more && !(stop && *stop);) {
+    grow(scene, tracer, plan, transmitter, grid, discovered, first_seed, grown, progress, stop);
+    auto& blocked = discovered.blocked;
+    blocked.insert(blocked.end(), grown.blocked.begin(), grown.blocked.end());
+    const Discovered found = detours(scene, tracer, plan, transmitter, grid, discovered, grown.known, most_edges, stop);
+    std::erase_if(blocked, [&](const BlockedPath& path) {
+      return static_cast<int>(count_edges(discovered.sequences[path.sequence])) < most_edges;
+    });
+    more = !found.seeds.empty() || !found.blocked.empty();
+    first_seed = discovered.append(found);
+  }
+}
+
+SequenceTable search_for_point(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
+                               const Vec3& point, double power, const SequenceTable& known,
+                               const std::atomic<bool>* stop) {
+  const PlanDescription& request = plan.request;
+  const int most_edges = std::min(request.depth, request.max_diffractions);
+  CoverageGrid spot;
+  spot.layout.nx = spot.layout.ny = 1;
+  spot.layout.cell = 1;
+  spot.layout.x0 = point.x - 0.5;
+  spot.layout.y0 = point.y - 0.5;
+  spot.layout.z = point.z;
+  spot.inside_fraction = {0};
+  spot.sub_points = {{{}, 1, 1}};
+  spot.ranges = {{0, 1}};
+  Discovered here;
+  here.sequences.enter(empty_sequence, {});
+  here.blocked.push_back({0, 0, 0, 0});  // the direct wave; if nothing blocks it there is no way around
+  look_back(scene, tracer, plan, transmitter, spot, here, stop);
+  for (std::size_t i = 0; i < known.size(); ++i)
+    if (const auto size = static_cast<int>(known[i].size()); size > 0 && size < request.depth)
+      here.seeds.push_back({here.sequences.enter(known.hash(i), known[i]), 0, ~0u, false, 0});
+  std::sort(here.seeds.begin(), here.seeds.end(), [](const Seed& a, const Seed& b) { return a.sequence < b.sequence; });
+  Grown grown;
+  grown.known = {power};
+  grow_and_lead_around(scene, tracer, plan, transmitter, spot, 0, most_edges, here, grown, {}, stop);
+  SequenceTable found;
+  for (std::size_t i = 0; i < here.sequences.size(); ++i)
+    if (known.find(here.sequences.hash(i)) == SequenceTable::no_sequence)
+      found.enter(here.sequences.hash(i), here.sequences[i]);
+  return found;
+}
+
+}  // namespace grimaldi

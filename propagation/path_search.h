@@ -1,0 +1,30 @@
+#pragma once
+// Growing and leading around in turns, until no new path is found.
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+
+#include "propagation/coverage_grid.h"
+#include "propagation/discover.h"
+#include "propagation/grow.h"
+#include "propagation/plan.h"
+#include "propagation/sequence.h"
+#include "propagation/tracer.h"
+
+namespace grimaldi {
+
+/// Grows the seeds of `discovered` from number `first_seed` on, leads what is blocked around what blocks it (paths of
+/// at most `most_edges` edges), grows what that found, and so on. Blocked paths of `most_edges` edges stay in
+/// `discovered`; the others are used up.
+void grow_and_lead_around(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
+                          const CoverageGrid& grid, std::size_t first_seed, int most_edges, Discovered& discovered,
+                          Grown& grown, const std::function<void(double)>& progress, const std::atomic<bool>* stop);
+
+/// The sequences, beyond the known ones, that lead around what blocks those on their way to one point, where paths of
+/// power `power` (first band) arrive by the known ones.
+SequenceTable search_for_point(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
+                               const Vec3& point, double power, const SequenceTable& known,
+                               const std::atomic<bool>* stop);
+
+}  // namespace grimaldi
