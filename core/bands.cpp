@@ -19,9 +19,7 @@ constexpr std::array<double, 30> third_nominals = {25,   31.5, 40,   50,   63,  
                                                    2500, 3150, 4000, 5000, 6300, 8000, 10000, 12500, 16000, 20000};
 
 // f = 1000·10^(thirds/10) Hz
-double exact_frequency(int thirds) {
-  return 1000.0 * std::pow(10.0, thirds / 10.0);
-}
+double exact_frequency(int thirds) { return 1000.0 * std::pow(10.0, thirds / 10.0); }
 
 std::vector<double> bands(std::span<const double> nominals, int first, int thirds_per_band, double from, double to) {
   GRIMALDI_EXPECT(from > 0 && from <= to);
@@ -35,9 +33,7 @@ std::vector<double> bands(std::span<const double> nominals, int first, int third
 
 }  // namespace
 
-std::vector<double> octave_bands(double from, double to) {
-  return bands(octave_nominals, first_octave, 3, from, to);
-}
+std::vector<double> octave_bands(double from, double to) { return bands(octave_nominals, first_octave, 3, from, to); }
 
 std::vector<double> third_octave_bands(double from, double to) {
   return bands(third_nominals, first_third, 1, from, to);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <future>
 
 #include "core/blocks.h"
 #include "core/constants.h"
@@ -13,7 +14,7 @@
 namespace grimaldi {
 namespace {
 
-constexpr std::uint64_t block_size = 4096;
+constexpr std::uint64_t block_size = 8192;
 constexpr std::uint64_t aimed_block_size = 256;
 constexpr std::uint32_t aim_stream = 4;
 /// Blocks whose records are held at a time: what bounds the memory of a long pass, and how soon it can be stopped.
@@ -117,6 +118,14 @@ Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, 
   const unsigned threads = request.threads ? request.threads : hardware_threads();
   std::vector<Walker> walkers;
   for (unsigned i = 0; i < threads; ++i) walkers.emplace_back(scene, tracer, plan, search, reflectance, rims);
+  // One group's records are united while the next group walks.
+  const auto merge_group = [&](const std::vector<BlockRecords>& records, std::uint32_t pass_bit) {
+    const auto start = Clock::now();
+    for (const BlockRecords& block : records) merge(block, pass_bit, all);
+    if (all.seeds.size() > 8'000'000) unite_seeds(all.seeds, all.sequences.size(), threads);
+    all.merge_seconds += seconds_since(start);
+  };
+  std::future<void> merging;
   for (std::uint64_t pass = 0; needed && pass < passes; ++pass) {
     if (stop && *stop) break;
     const std::uint64_t count = (pass + 1) * total / passes - pass * total / passes;
@@ -155,16 +164,15 @@ Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, 
               walker.walk(request.transmitters[transmitter].position, launcher.direction(i), pass << 40 | i);
           },
           stop);
-      const auto start = Clock::now();
-      for (const BlockRecords& block : records) merge(block, 1u << pass, all);
-      if (all.seeds.size() > 8'000'000) unite_seeds(all.seeds, all.sequences.size(), threads);
-      all.merge_seconds += seconds_since(start);
-      if (progress)
-        progress((double(pass) + double(group + records.size()) / double(blocks + aimed_blocks)) / double(passes));
+      const std::size_t done = records.size();
+      if (merging.valid()) merging.get();
+      merging = std::async(std::launch::async, merge_group, std::move(records), 1u << pass);
+      if (progress) progress((double(pass) + double(group + done) / double(blocks + aimed_blocks)) / double(passes));
     }
     all.rays += count;
     if (progress) progress(double(pass + 1) / double(passes));
   }
+  if (merging.valid()) merging.get();
   const auto start = Clock::now();
   const std::vector<std::uint32_t> renumbered = all.sequences.sort();
   for (Seed& seed : all.seeds) seed.sequence = renumbered[seed.sequence];

@@ -101,6 +101,7 @@ class Walker::Walk {
     spacing_ = spacing;
     records_ = &records;
     keys_.clear();
+    kept_hash_ = empty_sequence;
   }
 
   /// One launched beam with all that grows out of it.
@@ -183,7 +184,12 @@ class Walker::Walk {
   }
 
   std::uint32_t keep(const Beam& beam) {
-    return records_->sequences.enter(beam.hash, {beam.interactions.data(), beam.depth});
+    // The cells of one segment, and often those of the next beams, belong to one sequence.
+    if (beam.hash != kept_hash_) {
+      kept_hash_ = beam.hash;
+      kept_number_ = records_->sequences.enter(beam.hash, {beam.interactions.data(), beam.depth});
+    }
+    return kept_number_;
   }
 
   void record_cells(const Beam& beam, const Hit& hit) {
@@ -381,6 +387,8 @@ class Walker::Walk {
   double spacing_ = 0;
   BlockRecords* records_ = nullptr;
   KeySet keys_;
+  SequenceHash kept_hash_ = empty_sequence;  ///< the last sequence entered; the empty one is never kept
+  std::uint32_t kept_number_ = 0;
   std::vector<Beam> pending_;
   std::uint64_t beam_number_ = 0;
   std::uint32_t draws_ = 0;
