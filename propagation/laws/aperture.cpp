@@ -25,19 +25,19 @@ double edge_length(const PublishedEdge& edge) {
 
 }  // namespace
 
-AmplitudeTriangle Aperture::triangle(std::size_t i) const {
+AmplitudeTriangle TriangleAperture::triangle(std::size_t i) const {
   const auto& [a, b, c] = triangles[i];
   return {{vertices[a], vertices[b], vertices[c]}, {amplitudes[a], amplitudes[b], amplitudes[c]}};
 }
 
-Complex aperture_field(const Aperture& aperture, double wavenumber, const PlanePoint& xi) {
+Complex aperture_field(const TriangleAperture& aperture, double wavenumber, const PlanePoint& xi) {
   Complex sum = 0;
   for (std::size_t i = 0; i < aperture.triangles.size(); ++i)
     sum += triangle_transform(aperture.triangle(i), {wavenumber * xi[0], wavenumber * xi[1]});
   return wavenumber / (2 * pi) * sum;
 }
 
-void aperture_field(const Aperture& aperture, double wavenumber, std::span<const PlanePoint> xi,
+void aperture_field(const TriangleAperture& aperture, double wavenumber, std::span<const PlanePoint> xi,
                     std::span<Complex> field) {
   GRIMALDI_EXPECT(xi.size() == field.size());
   constexpr std::size_t block = 64;
@@ -56,7 +56,7 @@ void aperture_field(const Aperture& aperture, double wavenumber, std::span<const
   }
 }
 
-std::vector<PublishedEdge> boundary_edges(const Aperture& aperture) {
+std::vector<PublishedEdge> boundary_edges(const TriangleAperture& aperture) {
   std::vector<std::pair<std::size_t, std::size_t>> sides;
   for (std::size_t i = 0; i < aperture.triangles.size(); ++i) {
     auto [a, b, c] = aperture.triangles[i];
@@ -72,7 +72,7 @@ std::vector<PublishedEdge> boundary_edges(const Aperture& aperture) {
   return edges;
 }
 
-double aperture_power(const Aperture& aperture) {
+double aperture_power(const TriangleAperture& aperture) {
   double power = 0;
   for (std::size_t i = 0; i < aperture.triangles.size(); ++i) {
     const AmplitudeTriangle t = aperture.triangle(i);
@@ -83,7 +83,7 @@ double aperture_power(const Aperture& aperture) {
   return power;
 }
 
-ApertureMoments aperture_moments(const Aperture& aperture) {
+ApertureMoments aperture_moments(const TriangleAperture& aperture) {
   ApertureMoments m{};
   for (std::size_t n = 0; n < aperture.triangles.size(); ++n) {
     const AmplitudeTriangle t = aperture.triangle(n);
@@ -105,7 +105,7 @@ ApertureMoments aperture_moments(const Aperture& aperture) {
   return m;
 }
 
-CentralLobe central_lobe(const Aperture& aperture, double wavenumber) {
+CentralLobe central_lobe(const TriangleAperture& aperture, double wavenumber) {
   const ApertureMoments m = aperture_moments(aperture);
   const double size = std::norm(m.zeroth);
   GRIMALDI_EXPECT(size > 0);
@@ -128,11 +128,11 @@ CentralLobe central_lobe(const Aperture& aperture, double wavenumber) {
   return lobe;
 }
 
-double diffracted_share(const Aperture& aperture, double wavenumber) {
+double diffracted_share(const TriangleAperture& aperture, double wavenumber) {
   return std::max(0.0, 1 - central_lobe(aperture, wavenumber).power / aperture_power(aperture));
 }
 
-double sampling_quality(const Aperture& aperture, double wavenumber) {
+double sampling_quality(const TriangleAperture& aperture, double wavenumber) {
   double edges = 0;
   for (const PublishedEdge& edge : boundary_edges(aperture)) edges += published_edge_power(edge);
   return diffracted_share(aperture, wavenumber) * aperture_power(aperture) / edges;

@@ -15,7 +15,7 @@
 namespace grimaldi {
 
 /// Amplitudes at the vertices, 1/m for unit power; linear in between. Triangles do not overlap; wound either way.
-struct Aperture {
+struct TriangleAperture {
   std::vector<PlanePoint> vertices;
   std::vector<std::complex<double>> amplitudes;
   std::vector<std::array<std::size_t, 3>> triangles;
@@ -25,17 +25,17 @@ struct Aperture {
 
 /// Fraunhofer field of the aperture, without approximation of the linear amplitude. Formula: ψ = k/(2πR) ∫ φ e^{−ikξ·q}
 /// d²q, S2.1. Inputs: wavenumber rad/m, direction cosines ξ. Error: that of triangle_transform, summed.
-std::complex<double> aperture_field(const Aperture& aperture, double wavenumber, const PlanePoint& xi);
+std::complex<double> aperture_field(const TriangleAperture& aperture, double wavenumber, const PlanePoint& xi);
 
 /// The same for many directions, several at once. Spans of one length.
-void aperture_field(const Aperture& aperture, double wavenumber, std::span<const PlanePoint> xi,
+void aperture_field(const TriangleAperture& aperture, double wavenumber, std::span<const PlanePoint> xi,
                     std::span<std::complex<double>> field);
 
 /// Sides of one triangle only, the aperture on their left.
-std::vector<PublishedEdge> boundary_edges(const Aperture& aperture);
+std::vector<PublishedEdge> boundary_edges(const TriangleAperture& aperture);
 
 /// ∫ |φ|² d²q. Formula: Σ |S|/6 Re Σ_{j≤l} φ_j φ_l*, S2.31, S2.32.
-double aperture_power(const Aperture& aperture);
+double aperture_power(const TriangleAperture& aperture);
 
 /// Moments ∫ φ qq… d²q: M0 = Σ |S| P/3, M1 = Σ |S|/12 Σ_j (P + φ_j) u_j, M2 = Σ |S|/60 Σ_ij (1+δ_ij)(P + φ_i + φ_j)
 /// u_i u_jᵀ, P = φ1 + φ2 + φ3. M2 stands in place of B.4 to B.12 (where the signs of B.8 and B.10 are wrong) and of
@@ -45,7 +45,7 @@ struct ApertureMoments {
   std::array<std::complex<double>, 2> first;
   std::array<std::complex<double>, 3> second;  ///< xx, xy, yy
 };
-ApertureMoments aperture_moments(const Aperture& aperture);
+ApertureMoments aperture_moments(const TriangleAperture& aperture);
 
 /// The central lobe as a Gaussian: |ψ(0)|² exp(−½ ξᵀ Σ₀⁻¹ ξ).
 struct CentralLobe {
@@ -58,12 +58,12 @@ struct CentralLobe {
 /// out; σ_ξ = √3/(k e), e the edges' mean length weighted by their power (B.15); P̃₀ = 2π |Σ₀⁻¹ + σ_ξ⁻²|^{−1/2} |ψ(0)|².
 /// Valid: M0 ≠ 0; a Σ₀⁻¹ so negative that the sum is not positive definite (a field with a hole at its centre) has no
 /// such lobe: power 0.
-CentralLobe central_lobe(const Aperture& aperture, double wavenumber);
+CentralLobe central_lobe(const TriangleAperture& aperture, double wavenumber);
 
 /// Share of the power that is diffracted, (P − P̃₀)/P, S3.1, 0 … 1; a lobe that claims more than there is leaves 0.
-double diffracted_share(const Aperture& aperture, double wavenumber);
+double diffracted_share(const TriangleAperture& aperture, double wavenumber);
 
 /// Quality of sampling by edges: diffracted power over the sum of the edges' own, S3.2; good near 1.
-double sampling_quality(const Aperture& aperture, double wavenumber);
+double sampling_quality(const TriangleAperture& aperture, double wavenumber);
 
 }  // namespace grimaldi

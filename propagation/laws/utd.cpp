@@ -121,7 +121,7 @@ FaceReflections reciprocal_face_reflections(const WedgeFace& face_0, const Wedge
   return {mean(face_0, phi_in, phi), mean(face_n, exterior_angle - phi, exterior_angle - phi_in)};
 }
 
-WedgeField utd_plane_wave(double exterior_angle, double k_rho, double phi_in, double phi, double half_turn,
+WedgeTotal utd_plane_wave(double exterior_angle, double k_rho, double phi_in, double phi, double half_turn,
                           BoundarySide side) {
   GRIMALDI_EXPECT(k_rho > 0);
   const double n = exterior_angle / half_turn, radians = pi / half_turn, period = 2 * exterior_angle;

@@ -89,7 +89,7 @@ FaceReflections reciprocal_face_reflections(const WedgeFace& face_0, const Wedge
                                             double phi_in, double phi, double sin_beta, double wavenumber);
 
 /// Soft and hard wedge.
-struct WedgeField {
+struct WedgeTotal {
   std::complex<double> soft, hard;
 };
 
@@ -97,7 +97,7 @@ struct WedgeField {
 /// angles. The geometrical part is the sum over all images, so that n < 1, an inner corner, is served.
 /// Inputs: angles in the unit of `half_turn`; kρ > 0.   Valid: exact for n = 2 and n = 1/m; else the error of the
 /// theory, O(1/kρ^1.5). Error: 1e-15 (1 + kρ) against the formula (held by Utd.TotalFieldOfTheReference).
-WedgeField utd_plane_wave(double exterior_angle, double k_rho, double phi_in, double phi, double half_turn = pi,
+WedgeTotal utd_plane_wave(double exterior_angle, double k_rho, double phi_in, double phi, double half_turn = pi,
                           BoundarySide side = BoundarySide::dark);
 
 }  // namespace grimaldi

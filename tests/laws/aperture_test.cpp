@@ -18,7 +18,7 @@ namespace {
 using Complex = std::complex<double>;
 
 // A quadrilateral of two triangles, wound differently, off the origin, with complex amplitudes.
-Aperture quadrilateral() {
+TriangleAperture quadrilateral() {
   return {{{0.1, -0.3}, {1.3, 0.2}, {0.9, 1.1}, {-0.2, 0.7}},
           {{1.0, 0.2}, {0.7, -0.4}, {0.9, 0.5}, {0.3, 0.6}},
           {{0, 1, 2}, {0, 3, 2}}};
@@ -53,7 +53,7 @@ TEST(Aperture, PowersAndEdgesOfTheReference) {
 // Where the amplitude is constant the edges are the field: two forms with nothing in common but the aperture. The edge
 // form loses digits as 1/(kξL)², here ≥ 1.
 TEST(Aperture, ConstantAmplitudeIsTheSumOfItsEdges) {
-  Aperture aperture = quadrilateral();
+  TriangleAperture aperture = quadrilateral();
   std::fill(aperture.amplitudes.begin(), aperture.amplitudes.end(), Complex(0.6, -0.8));
   for (const double k : {30.0, 200.0})
     for (const PlanePoint& xi : {PlanePoint{0.1, 0.02}, PlanePoint{-0.3, 0.4}, PlanePoint{0.0, 0.1}}) {
@@ -66,7 +66,7 @@ TEST(Aperture, ConstantAmplitudeIsTheSumOfItsEdges) {
 // ∫|ψ|² d²ξ = ∫|φ|² d²q (S1.4). The square of a transform of bounded support: its sum over a grid finer than 2π over
 // twice the support is the integral, but for what lies outside the grid, 2/(πκ) of the edges' blades: 0.5 % at κ = 600.
 TEST(Aperture, PowerIsThatOfTheField) {
-  const Aperture aperture = quadrilateral();
+  const TriangleAperture aperture = quadrilateral();
   const double step = 1.5, reach = 600;
   const int count = static_cast<int>(reach / step);
   std::vector<PlanePoint> xi;
@@ -86,7 +86,7 @@ TEST(Aperture, PowerIsThatOfTheField) {
 // Σ₀⁻¹ |ψ(0)|² = −Hessian of |ψ|² at 0, by differences of the field: with h = 1e-3/k the error is h² of the fourth
 // derivatives, 1e-6, and rounding 1e-15/h².
 TEST(Aperture, CentralLobeIsTheCurvatureOfTheField) {
-  const Aperture aperture = quadrilateral();
+  const TriangleAperture aperture = quadrilateral();
   const double k = 40, h = 1e-3 / k;
   const CentralLobe lobe = central_lobe(aperture, k);
   const auto power = [&](double x, double y) { return std::norm(aperture_field(aperture, k, {x, y})); };
@@ -101,7 +101,7 @@ TEST(Aperture, CentralLobeIsTheCurvatureOfTheField) {
 
 // B.16 is the integral of B.14: a Gaussian of Σ₀⁻¹ + σ_ξ⁻² (midpoints over ±8 standard deviations: 1e-10).
 TEST(Aperture, PowerOfTheCentralLobeIsItsIntegral) {
-  const Aperture aperture = quadrilateral();
+  const TriangleAperture aperture = quadrilateral();
   const double k = 40;
   const CentralLobe lobe = central_lobe(aperture, k);
   double length = 0, weight = 0;
@@ -124,8 +124,8 @@ TEST(Aperture, PowerOfTheCentralLobeIsItsIntegral) {
 
 // The moments do not care how the aperture is cut, where the origin lies (Σ₀⁻¹), nor how long a metre is (shares).
 TEST(Aperture, SharesDoNotDependOnOriginAndUnit) {
-  const Aperture aperture = quadrilateral();
-  Aperture moved = aperture, larger = aperture;
+  const TriangleAperture aperture = quadrilateral();
+  TriangleAperture moved = aperture, larger = aperture;
   for (PlanePoint& u : moved.vertices) u[0] += 3, u[1] -= 5;
   for (PlanePoint& u : larger.vertices) u[0] *= 7, u[1] *= 7;
   const CentralLobe a = central_lobe(aperture, 20), b = central_lobe(moved, 20);
@@ -141,8 +141,8 @@ TEST(Aperture, SharesDoNotDependOnOriginAndUnit) {
 // Cutting the boundary's edges in two halves the sum of their own powers, about (S3): 2 (e/2)² (|mean|² I2), so the
 // quality doubles up to the change of the lobe. The diffracted share follows σ_ξ.
 TEST(Aperture, QualityGrowsWithTheNumberOfEdges) {
-  const Aperture square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {1, 1, 1, 1}, {{0, 1, 2}, {0, 2, 3}}};
-  const Aperture cut{{{0, 0}, {0.5, 0}, {1, 0}, {1, 0.5}, {1, 1}, {0.5, 1}, {0, 1}, {0, 0.5}, {0.5, 0.5}},
+  const TriangleAperture square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {1, 1, 1, 1}, {{0, 1, 2}, {0, 2, 3}}};
+  const TriangleAperture cut{{{0, 0}, {0.5, 0}, {1, 0}, {1, 0.5}, {1, 1}, {0.5, 1}, {0, 1}, {0, 0.5}, {0.5, 0.5}},
                      std::vector<Complex>(9, 1.0),
                      {{0, 1, 8}, {1, 2, 8}, {2, 3, 8}, {3, 4, 8}, {4, 5, 8}, {5, 6, 8}, {6, 7, 8}, {7, 0, 8}}};
   double whole = 0, halves = 0;
@@ -155,7 +155,7 @@ TEST(Aperture, QualityGrowsWithTheNumberOfEdges) {
 }
 
 TEST(Aperture, ManyDirectionsAtOnce) {
-  const Aperture aperture = quadrilateral();
+  const TriangleAperture aperture = quadrilateral();
   std::vector<PlanePoint> xi;
   for (int i = 0; i < 150; ++i) xi.push_back({0.006 * i - 0.4, 0.3 - 0.002 * i});
   std::vector<Complex> field(xi.size());

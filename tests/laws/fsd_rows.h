@@ -17,7 +17,7 @@ struct FsdRow {
   std::string id, amplitudes;
   double wavenumber = 0;
   PlanePoint xi{};
-  Aperture aperture;
+  TriangleAperture aperture;
   std::complex<double> exact, edges, lobes_removed;  ///< psi, psie, psih
   double power = 0, edge_power = 0;                  ///< PA, sumPj
   double area = 0, highest = 0;                      ///< Σ|S|, max|φ|

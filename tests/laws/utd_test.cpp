@@ -146,7 +146,7 @@ TEST(Utd, TotalFieldOfTheReference) {
   for (const auto& row : rows) {
     const auto number = [&](std::size_t i) { return std::stod(row[i]); };
     const double n = ratio(row[1]);
-    const WedgeField u = utd_plane_wave(n * 180, number(2), number(4), number(3), 180);
+    const WedgeTotal u = utd_plane_wave(n * 180, number(2), number(4), number(3), 180);
     const double error =
         std::max(std::abs(u.soft - Complex{number(5), number(6)}), std::abs(u.hard - Complex{number(7), number(8)}));
     EXPECT_LT(error, 1e-14 * (1 + number(2))) << row[0];
@@ -163,7 +163,7 @@ TEST(Utd, HalfPlaneIsSommerfelds) {
   for (const auto& row : rows) {
     const auto number = [&](std::size_t i) { return std::stod(row[i]); };
     for (const BoundarySide side : {BoundarySide::lit, BoundarySide::dark}) {
-      const WedgeField u = utd_plane_wave(360, number(1), number(3), number(2), 180, side);
+      const WedgeTotal u = utd_plane_wave(360, number(1), number(3), number(2), 180, side);
       const double bound = number(1) > 1000 ? 1e-10 : 1e-12;
       EXPECT_LT(std::abs(u.soft - Complex{number(4), number(5)}), bound) << row[0];
       EXPECT_LT(std::abs(u.hard - Complex{number(6), number(7)}), bound) << row[0];
@@ -181,7 +181,7 @@ TEST(Utd, HalfPlaneFromTheKnifeEdge) {
           return std::polar(1.0, k_rho * std::cos(psi)) * knife_edge(-2 * std::sqrt(k_rho / pi) * std::cos(0.5 * psi));
         };
         const Complex i = family(phi - phi_in), r = family(phi + phi_in);
-        const WedgeField u = utd_plane_wave(2 * pi, k_rho, phi_in, phi);
+        const WedgeTotal u = utd_plane_wave(2 * pi, k_rho, phi_in, phi);
         EXPECT_LT(std::abs(u.soft - (i - r)), 1e-13 * (1 + k_rho));
         EXPECT_LT(std::abs(u.hard - (i + r)), 1e-13 * (1 + k_rho));
       }
@@ -198,7 +198,7 @@ TEST(Utd, InnerCornersOfWholePartsNeedNoDiffraction) {
           const Complex wave = std::polar(1.0, k_rho * std::cos(at - sign * in - 2 * image * angle));
           soft += sign * wave, hard += wave;
         }
-      const WedgeField u = utd_plane_wave(angle, k_rho, in, at);
+      const WedgeTotal u = utd_plane_wave(angle, k_rho, in, at);
       EXPECT_LT(std::abs(u.soft - soft), 2e-14 * k_rho) << m << " " << phi;
       EXPECT_LT(std::abs(u.hard - hard), 2e-14 * k_rho) << m << " " << phi;
     }
@@ -217,7 +217,7 @@ TEST(Utd, TotalFieldIsContinuousOverBoundaries) {
           const auto at = [&](double phi, BoundarySide side) {
             return utd_plane_wave(180 * n, k_rho, phi_in, phi, 180, side);
           };
-          const WedgeField before = at(boundary - step, BoundarySide::dark),
+          const WedgeTotal before = at(boundary - step, BoundarySide::dark),
                            behind = at(boundary + step, BoundarySide::dark), lit = at(boundary, BoundarySide::lit),
                            dark = at(boundary, BoundarySide::dark);
           const double slope = 2e-9 * (6 * k_rho + 6 * std::sqrt(k_rho) + 3);
