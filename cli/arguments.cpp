@@ -14,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> verbs = {"coverage", "profile", "scene"};
-const std::vector<std::string> later_verbs = {"compare", "tradeoff", "validate", "eval", "report"};
+const std::vector<std::string> verbs = {"coverage", "profile", "scene", "eval"};
+const std::vector<std::string> later_verbs = {"compare", "tradeoff", "validate", "report"};
 
 constexpr const char* examples = R"(Examples:
   grimaldi coverage city.toml
@@ -24,6 +24,8 @@ constexpr const char* examples = R"(Examples:
   grimaldi profile city.toml --rx 40,-60,1.5 --rx=-8,21,1.5
   grimaldi scene city.xml --json
   grimaldi scene street-canyon --set scene.parameters.width=30
+  grimaldi eval --list
+  grimaldi eval utd --in rows.csv --out results.csv
 
 Numbers take units: 3.5GHz, 500Hz, 30dBm, 5m, 550nm; a bare number is SI.
 Exit codes: 0 done, 1 bad input or interrupted, 2 a fault of the program.)";
@@ -211,6 +213,17 @@ Arguments parse_arguments(int argc, const char* const* argv, Diagnostics& diagno
   scene.add_flag("--json", arguments.json, "print JSON, nothing else");
   scene.add_flag("--quiet", arguments.quiet, "no warnings");
 
+  CLI::App& eval = *app.add_subcommand("eval", "one kernel over the rows of a CSV file");
+  eval.allow_extras();
+  eval.set_help_flag();  // a function has a help of its own
+  eval.add_option("function", arguments.input, "which one")->type_name("FUNCTION");
+  add_text(eval, "--in", arguments.rows_in, "ROWS.csv", "the rows to read; - (default) is stdin");
+  add_text(eval, "--out", arguments.rows_out, "ROWS.csv",
+           "the same rows with the results; - (default) is stdout; replaced if it is there");
+  eval.add_flag("--list", arguments.list, "name the functions");
+  eval.add_flag("--quiet", arguments.quiet, "no warnings");
+  eval.add_flag("-h,--help", arguments.help, "what the function reads and gives");
+
   if (argc < 2) {
     arguments.print = app.help();
     arguments.exit_code = 1;
@@ -244,6 +257,14 @@ Arguments parse_arguments(int argc, const char* const* argv, Diagnostics& diagno
     if (arguments.input.empty())
       diagnostics.error("", 0, "scene", "no scene given", "",
                         fmt::format("name a file, or one of {}", fmt::join(canonical_names(), ", ")));
+  }
+  if (eval.parsed()) {
+    arguments.verb = Verb::eval;
+    refuse_extras(eval, arguments, diagnostics);
+    if (arguments.help && arguments.input.empty()) arguments.print = eval.help();
+    for (const auto& [flag, file] : {std::pair{"--in", &arguments.rows_in}, std::pair{"--out", &arguments.rows_out}})
+      if (file->empty())
+        diagnostics.error("", 0, flag, "an empty name", "a CSV file is needed", "- is stdin or stdout");
   }
   for (const auto& extra : app.remaining()) diagnostics.error("", 0, extra, "one argument too many");
   return arguments;

@@ -8,6 +8,7 @@
 #include <new>
 
 #include "cli/arguments.h"
+#include "cli/eval_verb.h"
 #include "cli/run_verb.h"
 #include "cli/scene_verb.h"
 
@@ -22,6 +23,7 @@ int run(int argc, char** argv, std::chrono::steady_clock::time_point start) {
     fmt::print("{}", *arguments.print);
     return arguments.exit_code;
   }
+  if (arguments.verb == Verb::eval) return eval_verb(arguments);
   return arguments.verb == Verb::scene ? scene_verb(arguments) : run_verb(arguments, start);
 }
 
