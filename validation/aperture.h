@@ -28,5 +28,7 @@ double area(const Aperture& aperture);
 double area(const Aperture::Loop& loop);
 /// Whether the point lies in the opening; points on the rim may fall either way.
 bool contains(const Aperture& aperture, const Aperture::Point& point);
+/// Largest distance of a point of the rim from the origin, unit of length.
+double extent(const Aperture& aperture);
 
 }  // namespace grimaldi

@@ -42,7 +42,7 @@ struct EdgePoint {
 /// Point source, free field e^{−jkR}/R.
 /// Formula: images e^{−jkR}/R and MacDonald's integral of e^{−jkR}/R on its path of steepest descent.
 /// Source: as above, 6.3; check in the tests by Biot-Tolstoy-Medwin, Svensson et al., JASA 106 (1999) 2331.
-/// Inputs: k ≥ 0 (rad/m), points with ρ ≥ 0; either may be called the source.
+/// Inputs: k > 0 (rad/m), points with ρ ≥ 0; either may be called the source.
 /// Returns: 1/m.
 /// Error: (1e-13 + 1e-15·kR) /R, R the length of the path over the edge (held by WedgeSeries.PointSource*); 1e-16/d at
 /// a distance d ≪ R from source or image.
