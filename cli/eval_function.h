@@ -69,4 +69,7 @@ struct EvalFunction {
 /// Those that evaluate the engine's own kernels.
 std::vector<EvalFunction> kernel_functions();
 
+/// Those that evaluate the references that the kernels are checked with.
+std::vector<EvalFunction> reference_functions();
+
 }  // namespace grimaldi

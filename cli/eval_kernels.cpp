@@ -6,7 +6,7 @@
 #include <cmath>
 #include <complex>
 
-#include "cli/eval_function.h"
+#include "cli/eval_inputs.h"
 #include "core/bands.h"
 #include "core/constants.h"
 #include "core/medium.h"
@@ -22,28 +22,8 @@ namespace {
 
 using Complex = std::complex<double>;
 using Values = std::vector<double>;
-using Kind = EvalInput::Kind;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double degree = pi / 180;
-
-Values flat(std::initializer_list<Complex> list) {
-  Values values;
-  for (const Complex& value : list) values.insert(values.end(), {value.real(), value.imag()});
-  return values;
-}
-
-EvalInput positive(const char* name, const char* meaning, double high = infinite) {
-  return {name, meaning, Kind::number, 0, high, true};
-}
-
-EvalInput within(const char* name, const char* meaning, double low, double high) {
-  return {name, meaning, Kind::number, low, high};
-}
-
-EvalInput any(const char* name, const char* meaning) { return {name, meaning}; }
-
-EvalInput word(const char* name, const char* meaning) { return {name, meaning, Kind::text}; }
 
 EvalInput with_stated(EvalInput input, double low, double high) {
   input.stated_low = low, input.stated_high = high;
@@ -61,30 +41,11 @@ EvalFunction transition() {
           [](const EvalRow& row) { return flat({transition_function(row.number(0))}); }};
 }
 
-/// The wedge's inputs that each function of a wedge begins with; angles follow.
-EvalInput exterior() { return {"n", "exterior angle over 180 degrees, e.g. 3/2", Kind::ratio, 0, 2, true}; }
-
-/// Whether both angles lie in the exterior; an angle that ends on a face to rounding is put there.
-bool in_exterior(const EvalRow& row, double exterior_deg, std::size_t first, double& phi, double& phip) {
-  bool good = true;
-  for (const auto& [input, angle] : {std::pair{first, &phi}, std::pair{first + 1, &phip}}) {
-    *angle = row.number(input);
-    if (*angle > exterior_deg * (1 + 1e-12)) {
-      row.fault(input, fmt::format("{} degrees lie inside the wedge", *angle),
-                fmt::format("the air goes from 0 to n*180 = {:.6g} degrees", exterior_deg),
-                "count the angle from face 0 through the air");
-      good = false;
-    }
-    *angle = std::min(*angle, exterior_deg);
-  }
-  return good;
-}
-
 EvalFunction utd() {
   return {
       "utd",
       "Kouyoumjian-Pathak diffraction coefficients of a perfectly conducting wedge",
-      {exterior(), positive("lambda_m", "wavelength, m"), positive("L_m", "distance parameter, m"),
+      {exterior_angle(), positive("lambda_m", "wavelength, m"), positive("L_m", "distance parameter, m"),
        within("beta0_deg", "angle of the incident ray against the edge", 0, 180),
        within("phi_deg", "direction of the diffracted ray, from face 0", 0, 360),
        within("phip_deg", "direction that the wave comes from, from face 0", 0, 360)},
@@ -92,15 +53,15 @@ EvalFunction utd() {
       "sqrt(m); field = incident field at the edge times D A(s) e^{-jks}. Exactly on a boundary: the dark side.",
       [](const EvalRow& row) -> Values {
         const double exterior_deg = row.times(0, 180), n = row.number(0), sin_beta = std::sin(degree * row.number(3));
-        double phi = 0, phip = 0;
         if (!(sin_beta > 1e-9)) {
           row.fault(3, "the ray runs along the edge", "the coefficient grows as 1/sin(beta0)",
                     "give an angle between 0 and 180 degrees");
           return {};
         }
-        if (!in_exterior(row, exterior_deg, 4, phi, phip)) return {};
+        const WedgeAngles angles = wedge_angles(row, exterior_deg, 4, 5, "degrees");
+        if (!angles.good) return {};
         // Turns in degrees: boundaries at whole degrees are met exactly.
-        const std::array<double, 4> turns = wedge_turns(exterior_deg, phip, phi, 180);
+        const std::array<double, 4> turns = wedge_turns(exterior_deg, angles.phip, angles.phi, 180);
         const double length = row.number(2), phase_distance = 2 * pi / row.number(1) * length;
         WedgeTerms d;
         for (std::size_t i = 0; i < 4; ++i)
@@ -112,16 +73,16 @@ EvalFunction utd() {
 EvalFunction utd_total() {
   return {"utd-total",
           "plane wave on a wedge by UTD: geometrical optics and diffraction",
-          {exterior(), positive("k_rho", "distance from the edge times k, rad", 1e9),
+          {exterior_angle(), positive("k_rho", "distance from the edge times k, rad", 1e9),
            within("phi_deg", "direction of the point, from face 0", 0, 360),
            within("phip_deg", "direction that the wave comes from, from face 0", 0, 360)},
           {"soft_re", "soft_im", "hard_re", "hard_im"},
           "Incident wave e^{+j k rho cos(phi - phip)}. soft: u = 0 on the faces, hard: no flow through them.",
           [](const EvalRow& row) -> Values {
             const double exterior_deg = row.times(0, 180);
-            double phi = 0, phip = 0;
-            if (!in_exterior(row, exterior_deg, 2, phi, phip)) return {};
-            const WedgeTotal u = utd_plane_wave(exterior_deg, row.number(1), phip, phi, 180);
+            const WedgeAngles angles = wedge_angles(row, exterior_deg, 2, 3, "degrees");
+            if (!angles.good) return {};
+            const WedgeTotal u = utd_plane_wave(exterior_deg, row.number(1), angles.phip, angles.phi, 180);
             return flat({u.soft, u.hard});
           }};
 }
@@ -294,7 +255,7 @@ EvalFunction rain() {
       "specific attenuation of radio waves by rain, ITU-R P.838-3",
       {with_stated(positive("f_GHz", "frequency, GHz"), 1, 1000), within("R_mmh", "rain rate, mm/h", 0, infinite),
        within("elev_deg", "elevation of the path", -90, 90),
-       any("tau_deg", "tilt of the polarisation: 0 horizontal, 90 vertical, 45 circular")},
+       any_number("tau_deg", "tilt of the polarisation: 0 horizontal, 90 vertical, 45 circular")},
       {"gamma_dBkm"},
       "dB/km.",
       [](const EvalRow& row) {

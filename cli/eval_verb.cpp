@@ -186,7 +186,11 @@ void write_output(const std::string& name, const std::string& text) {
 }  // namespace
 
 const std::vector<EvalFunction>& eval_functions() {
-  static const std::vector<EvalFunction> functions = kernel_functions();
+  static const std::vector<EvalFunction> functions = [] {
+    std::vector<EvalFunction> list = kernel_functions();
+    for (EvalFunction& function : reference_functions()) list.push_back(std::move(function));
+    return list;
+  }();
   return functions;
 }
 
@@ -212,7 +216,11 @@ CsvRows evaluate_rows(const EvalFunction& function, const CsvRows& input, Diagno
                        range_of(needed.stated_low, needed.stated_high), "the formula is used as it is");
     }
     std::vector<double> results;
-    if (readable) results = function.evaluate(EvalRow(function.inputs, values, faults));
+    try {
+      if (readable) results = function.evaluate(EvalRow(function.inputs, values, faults));
+    } catch (const InputErrors& errors) {
+      for (const Diagnostic& error : errors.diagnostics()) faults.add(error);
+    }
     if (readable && !faults.has_errors())
       for (const double result : results)
         if (!std::isfinite(result)) {

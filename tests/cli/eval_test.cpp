@@ -11,6 +11,7 @@
 #include "cli/csv_rows.h"
 #include "core/constants.h"
 #include "tests/cli/program.h"
+#include "validation/aperture_shape.h"
 
 namespace grimaldi {
 namespace {
@@ -124,6 +125,27 @@ const std::vector<ReferenceCase>& reference_cases() {
        150},
       {"radio/fresnel_knife_edge.csv", "knife-edge", same({"E_re", "E_im"}), fixed(1e-13), 40},
       {"radio/fresnel_knife_edge.csv", "knife-edge", {{"J_exact_dB", "J_dB"}}, fixed(1e-9), 40},
+      {"radio/utd_vs_exact.csv",
+       "wedge-exact",
+       {{"exact_soft_re", "soft_re"},
+        {"exact_soft_im", "soft_im"},
+        {"exact_hard_re", "hard_re"},
+        {"exact_hard_im", "hard_im"}},
+       fixed(1e-10),
+       60},
+      {"radio/halfplane_sommerfeld.csv", "half-plane-exact", same(soft_hard),
+       [](const Row& r) { return r["k_rho"] > 9000 ? 1e-10 : 1e-12; }, 150},
+      {"radio/wedge_exact_planewave.csv", "wedge-exact", same(soft_hard),
+       [](const Row& r) { return r["k_rho"] <= 40    ? 1e-12
+                                 : r["k_rho"] <= 150 ? 1e-11
+                                                     : 1e-10; }, 800},
+      {"radio/wedge_exact_linesource.csv", "wedge-exact-line", same(soft_hard), fixed(1e-12), 150},
+      {"radio/wedge_exact_pointsource.csv", "wedge-exact-point", same(soft_hard),
+       [](const Row& r) { return 1e-11 / std::hypot(r["rho"] + r["rho_s"], r["z"] - r["z_s"]); }, 300},
+      {"radio/aperture_fraunhofer.csv", "fraunhofer", same({"I_re", "I_im"}),
+       [](const Row& r) { return 1e-12 * area(aperture_shape(r.text("shape"), r.text("params"))); }, 90},
+      {"radio/aperture_rayleigh_sommerfeld.csv", "rayleigh-sommerfeld", same({"u_re", "u_im"}), fixed(1e-11), 50},
+      {"radio/knife_edge_double.csv", "double-knife-edge", same({"E_re", "E_im", "loss_exact_dB"}), fixed(1e-9), 10},
       {"radio/fresnel_coefficients.csv", "fresnel", same({"RTE_re", "RTE_im", "RTM_re", "RTM_im"}),
        [](const Row& r) { return r.text("material") == "metal" ? 1e-9 : 1e-12; }, 70},
       {"radio/slab_coefficients.csv", "slab",
@@ -359,6 +381,10 @@ TEST_F(Eval, BadMaterialsPolygonsAndBands) {
   refused({"fsd-field", "--in", "rows.csv"}, {"rows.csv:2: amps_re_im", "5 numbers for 3 vertices"});
   row(polygon, "1,0,0,0 0 1 zero 0 1,1 0 1 0 1 0,0 1 2");
   refused({"fsd-field", "--in", "rows.csv"}, {"rows.csv:2: verts_xy", "\"zero\" is not a finite number"});
+  row("shape,params,kx,ky", "rect,wx=1;wy=-1,0,0");
+  refused({"fraunhofer", "--in", "rows.csv"}, {"rows.csv:2", "params"});
+  row("shape,params,kx,ky", "rectangel,wx=1;wy=1,0,0");
+  refused({"fraunhofer", "--in", "rows.csv"}, {"rows.csv:2", "shape"});
   row("temperature_C,rel_humidity_pct,nominal_frequency_Hz", "20,50,900");
   refused({"air-absorption", "--in", "rows.csv"},
           {"nominal_frequency_Hz", "900 Hz is no nominal frequency", "write 1000"});
