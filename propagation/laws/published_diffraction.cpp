@@ -12,16 +12,6 @@ namespace {
 
 double sinc(double x) { return std::abs(x) < 1e-8 ? 1 : std::sin(x) / x; }
 
-/// g1(x) = (cos(x/2) − sinc(x/2))/x; nested series where the difference cancels, to 2e-16 for |x| < 2.
-double difference_over(double x) {
-  const double u = 0.5 * x, square = u * u;
-  if (std::abs(u) >= 1) return (std::cos(u) - sinc(u)) / x;
-  double nested = 1;
-  for (const double divisor : {304.0, 238.0, 180.0, 130.0, 88.0, 54.0, 28.0, 10.0})
-    nested = 1 - square / divisor * nested;
-  return -u / 6 * nested;
-}
-
 /// y/(x² + y²) without overflow or underflow.
 double over_square(double x, double y) {
   const double scale = std::max(std::abs(x), std::abs(y));
@@ -43,9 +33,20 @@ constexpr double uniform_share = 1.0 / 7;
 
 }  // namespace
 
-double alpha1(double zeta_x, double zeta_y) { return over_square(zeta_x, zeta_y) * difference_over(zeta_x) / (2 * pi); }
+double edge_g1(double x) {
+  const double u = 0.5 * x, square = u * u;
+  if (std::abs(u) >= 1) return (std::cos(u) - sinc(u)) / x;
+  double nested = 1;
+  for (const double divisor : {304.0, 238.0, 180.0, 130.0, 88.0, 54.0, 28.0, 10.0})
+    nested = 1 - square / divisor * nested;
+  return -u / 6 * nested;
+}
 
-double alpha2(double zeta_x, double zeta_y) { return over_square(zeta_x, zeta_y) * sinc(0.5 * zeta_x) / (2 * pi); }
+double edge_g2(double x) { return sinc(0.5 * x); }
+
+double alpha1(double zeta_x, double zeta_y) { return over_square(zeta_x, zeta_y) * edge_g1(zeta_x) / (2 * pi); }
+
+double alpha2(double zeta_x, double zeta_y) { return over_square(zeta_x, zeta_y) * edge_g2(zeta_x) / (2 * pi); }
 
 std::complex<double> whole_edge_wave(double wavenumber, const PublishedEdge& edge, const PlanePoint& xi) {
   const double ex = edge.end[0] - edge.start[0], ey = edge.end[1] - edge.start[1];

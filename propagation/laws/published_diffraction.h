@@ -17,6 +17,12 @@
 
 namespace grimaldi {
 
+/// g1(x) = (cos(x/2) − sinc(x/2))/x, odd; by a nested series for |x| < 2, where the difference cancels. Error ≤ 2e-16.
+double edge_g1(double x);
+
+/// g2(x) = sinc(x/2), sinc x = sin x/x, even. Error ≤ 2e-16.
+double edge_g2(double x);
+
 /// α1(ζ) = ζy/(2π ζ² ζx) (cos(ζx/2) − sinc(ζx/2)), S2.20. Returns 0 on both axes' limits of it: at ζx = 0 and at ζ = 0
 /// (which has no limit of its own: −sin t cos t/24π along angle t). Error ≤ 2e-15 of its value (nested series for |ζx|
 /// < 2).
