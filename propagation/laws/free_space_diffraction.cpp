@@ -31,7 +31,7 @@ void edge_waves(std::span<const double> effective_distance, double wavelength, s
     const std::size_t count = std::min(block, waves.size() - begin);
     for (std::size_t i = 0; i < count; ++i) {
       // √(π/2) v, v = 2 √(2L/λ) sin β sin(ε/2).
-      const double turn = std::fmin(std::fabs(epsilon[begin + i]), pi);
+      const double turn = std::min(std::fabs(epsilon[begin + i]), pi);
       argument[i] = 2 * std::sqrt(pi * effective_distance[begin + i] / wavelength) * sin_beta[begin + i] *
                     sine_cosine(0.5 * turn).sine;
     }

@@ -22,6 +22,8 @@ inline Pair operator*(double s, Pair a) { return {s * a.re, s * a.im}; }
 inline Pair conjugate(Pair a) { return {a.re, -a.im}; }
 inline Pair choose(bool first, Pair a, Pair b) { return {first ? a.re : b.re, first ? a.im : b.im}; }
 
+// What the loops over directions call is written without branches and inlined, so that the compiler packs them.
+
 /// Phases within this of each other: power series.
 constexpr double close = 2;
 
@@ -50,9 +52,10 @@ struct Differences {
   Pair first, second, turn;
 };
 
-inline Differences differences(double delta) {
+[[gnu::always_inline]] inline Differences differences(double delta) {
   const auto [s, c] = sine_cosine(0.5 * delta);
-  const double sinc = delta > 0 ? s / (0.5 * delta) : 1;
+  const bool apart = delta > 0;
+  const double sinc = (apart ? s : 1) / (apart ? 0.5 * delta : 1);
   const double square = delta * delta;
   // (Δ − sin Δ)/Δ², by its series below 1 (next term Δ¹⁷/19! = 8e-18).
   const double series =
@@ -64,7 +67,7 @@ inline Differences differences(double delta) {
                                      square * (1.0 / 39916800 -
                                                square * (1.0 / 6227020800 - square * (1.0 / 1307674368000 -
                                                                                       square / 355687428096000)))))));
-  const double direct = (delta - 2 * s * c) / (delta > 0 ? square : 1);
+  const double direct = (delta - 2 * s * c) / (apart ? square : 1);
   return {{c * sinc, s * sinc}, {0.5 * sinc * sinc, delta < 1 ? series : direct}, {1 - 2 * s * s, 2 * s * c}};
 }
 
@@ -75,7 +78,7 @@ struct Sum {
 };
 
 /// Σ_j φ_j exp[z₁, z₂, z₃, z_j] for phases 0, d1, d2 that lie apart, by differences from the outermost phases inwards.
-inline Sum by_differences(const std::array<Pair, 3>& amplitude, double d1, double d2) {
+[[gnu::always_inline]] inline Sum by_differences(const std::array<Pair, 3>& amplitude, double d1, double d2) {
   // Sorted a ≤ b ≤ c with their amplitudes.
   double a = 0, b = d1, c = d2;
   Pair fa = amplitude[0], fb = amplitude[1], fc = amplitude[2];
@@ -100,7 +103,7 @@ inline Sum by_differences(const std::array<Pair, 3>& amplitude, double d1, doubl
 
 /// The same for phases within `close` of each other: exp[z…] = Σ_p i^p G_p/(p+3)!, G_p the complete homogeneous
 /// polynomials of the phases from their mean. |w| ≤ 4/3: the first term left out is (4/3)²¹/(6·21!) = 1e-18.
-inline Sum by_series(const std::array<Pair, 3>& amplitude, double d1, double d2) {
+[[gnu::always_inline]] inline Sum by_series(const std::array<Pair, 3>& amplitude, double d1, double d2) {
   constexpr int terms = 21;
   const double mean = (d1 + d2) / 3;
   const double w[3] = {-mean, d1 - mean, d2 - mean};
@@ -108,6 +111,7 @@ inline Sum by_series(const std::array<Pair, 3>& amplitude, double d1, double d2)
   double h0 = 0, h1 = 0, h2 = 1;  // H_{p−2}, H_{p−1}, H_p of the three phases, whose sum is 0
   double g[3] = {1, 1, 1}, even[3] = {1.0 / 6, 1.0 / 6, 1.0 / 6}, odd[3] = {0, 0, 0};
   double factorial = 1.0 / 6;
+#pragma GCC unroll 32
   for (int p = 1; p < terms; ++p) {
     factorial /= p + 3;
     const double h = -e2 * h1 + e3 * h0;
@@ -130,13 +134,13 @@ struct Phases {
   double base, d1, d2, spread;
 };
 
-inline Phases phases(const Prepared& t, double kx, double ky) {
+[[gnu::always_inline]] inline Phases phases(const Prepared& t, double kx, double ky) {
   const double d1 = minus_dot(kx, ky, t.x1, t.y1), d2 = minus_dot(kx, ky, t.x2, t.y2);
-  const double high = std::fmax(std::fmax(d1, d2), 0.0), low = std::fmin(std::fmin(d1, d2), 0.0);
+  const double high = std::max(std::max(d1, d2), 0.0), low = std::min(std::min(d1, d2), 0.0);
   return {minus_dot(kx, ky, t.x0, t.y0), d1, d2, high - low};
 }
 
-inline Pair turned(const Sum& sum, double base) {
+[[gnu::always_inline]] inline Pair turned(const Sum& sum, double base) {
   const auto [s, c] = sine_cosine(base + sum.phase);
   return sum.value * Pair{c, s};
 }
