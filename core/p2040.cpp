@@ -111,7 +111,7 @@ std::map<std::string, Material> table_of(std::span<const RadioRow> rows) {
 
 std::optional<int> p2040_version(std::string_view name) {
   std::string letters;
-  for (const char c : name)
+  for (const char c : name.substr(0, name.find('(')))
     if (c != '.' && std::isspace(static_cast<unsigned char>(c)) == 0)
       letters += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   if (letters.size() != 7 || letters.compare(0, 6, "P2040-") != 0 || letters[6] < '1' || letters[6] > '4') return {};

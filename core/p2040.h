@@ -10,8 +10,8 @@
 
 namespace grimaldi {
 
-/// Version of the Recommendation, 1 (2015) … 4, from "P.2040-3" ("p2040-3", "P.2040-2" … too); nothing if it names
-/// none.
+/// Version of the Recommendation, 1 (2015) … 4, from "P.2040-3" ("p2040-3" and "P.2040-3 (remark)" too); nothing if it
+/// names none.
 std::optional<int> p2040_version(std::string_view name);
 
 /// Table 3 of P.2040-`version` by material_key: constants for radio alone. Version 2 has the values of version 3.

@@ -84,7 +84,7 @@ TEST(Material, VersionsOfP2040) {
   int compared = 0, hidden = 0;
   for (const auto& row : rows) {
     const auto number = [&](std::size_t i) { return std::stod(row[i]); };
-    const std::optional<int> version = p2040_version(row[1].substr(0, 8));
+    const std::optional<int> version = p2040_version(row[1]);
     ASSERT_TRUE(version) << row[1];
     const Material& material = p2040_materials(*version).at(material_key(row[2]));
     for (const double share : {0.0, 0.37, 1.0}) {
@@ -117,7 +117,7 @@ TEST(Material, PublishedPermittivitiesOfAllVersions) {
   const auto rows = reference_rows("radio/p2040_permittivity_published.csv");
   if (rows.empty()) GTEST_SKIP() << "needs ../shared/reference/radio/p2040_permittivity_published.csv";
   for (const auto& row : rows) {
-    const std::optional<int> version = p2040_version(row[1].substr(0, 8));
+    const std::optional<int> version = p2040_version(row[1]);
     ASSERT_TRUE(version) << row[1];
     Diagnostics diagnostics;
     const double f = 1e9 * std::stod(row[3]);
