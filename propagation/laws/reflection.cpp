@@ -1,6 +1,7 @@
 #include "propagation/laws/reflection.h"
 
 #include <cmath>
+#include <utility>
 
 #include "core/contract.h"
 
@@ -24,13 +25,10 @@ ReflectionCoefficients interface_reflection(Complex permittivity, double cos_inc
 
 /// The wave inside a slab.
 struct SlabPasses {
-  ReflectionCoefficients face;  ///< R' of its faces
-  Complex exponent;             ///< −j2q: there and back
-  Complex one_minus;            ///< 1 − e^{−j2q}
-
-  /// 1 − R'² e^{−j2q}
-  Complex summed(Complex r) const { return (1.0 - r) * (1.0 + r) + r * r * one_minus; }
-  Complex reflected(Complex r) const { return r * one_minus / summed(r); }
+  ReflectionCoefficients face;     ///< R' of its faces
+  ReflectionCoefficients through;  ///< 1 − R'², which keeps its digits where R' → ±1
+  Complex exponent;                ///< −j2q: there and back
+  Complex one_minus;               ///< 1 − e^{−j2q}
 };
 
 SlabPasses passes(Complex permittivity, double thickness, double wavenumber, double cos_incidence) {
@@ -41,8 +39,19 @@ SlabPasses passes(Complex permittivity, double thickness, double wavenumber, dou
   const double half_sine = std::sin(exponent.imag() / 2);
   const Complex one_minus(-std::expm1(exponent.real()) + 2 * decay * half_sine * half_sine,
                           -decay * std::sin(exponent.imag()));
-  return {interface_reflection(permittivity, cos_incidence, root), exponent, one_minus};
+  // 1 − ((x − q)/(x + q))² = 4xq/(x + q)², x = cos θ or η cos θ.
+  const auto through = [&](Complex x) {
+    const Complex sum = x + root;
+    return permittivity == 1.0 ? Complex(1) : 4.0 * (x / sum) * (root / sum);
+  };
+  return {interface_reflection(permittivity, cos_incidence, root),
+          {through(cos_incidence), through(permittivity * cos_incidence)},
+          exponent,
+          one_minus};
 }
+
+/// R = R'(1 − e^{−j2q})/(1 − R'² e^{−j2q}), the denominator written (1 − R'²) + R'²(1 − e^{−j2q}).
+Complex summed(Complex r, Complex through, Complex one_minus) { return through + r * r * one_minus; }
 
 }  // namespace
 
@@ -66,18 +75,24 @@ ReflectionCoefficients slab_reflection(Complex permittivity, double thickness, d
   if (std::isinf(thickness)) return half_space_reflection(permittivity, cos_incidence);
   const SlabPasses slab = passes(permittivity, thickness, wavenumber, cos_incidence);
   if (slab.one_minus == 0.0) return {0.0, 0.0};  // no thickness
-  return {slab.reflected(slab.face.te), slab.reflected(slab.face.tm)};
+  const auto reflected = [&](Complex r, Complex through) {
+    return r * slab.one_minus / summed(r, through, slab.one_minus);
+  };
+  return {reflected(slab.face.te, slab.through.te), reflected(slab.face.tm, slab.through.tm)};
 }
 
 SlabCoefficients slab_coefficients(Complex permittivity, double thickness, double wavenumber, double cos_incidence) {
   GRIMALDI_EXPECT(thickness >= 0 && wavenumber > 0);
   if (std::isinf(thickness)) return {half_space_reflection(permittivity, cos_incidence), {0.0, 0.0}};
   const SlabPasses slab = passes(permittivity, thickness, wavenumber, cos_incidence);
-  if (slab.one_minus == 0.0) return {{0.0, 0.0}, {1.0, 1.0}};
-  const Complex through = std::exp(0.5 * slab.exponent);
-  const auto transmitted = [&](Complex r) { return (1.0 - r) * (1.0 + r) * through / slab.summed(r); };
-  return {{slab.reflected(slab.face.te), slab.reflected(slab.face.tm)},
-          {transmitted(slab.face.te), transmitted(slab.face.tm)}};
+  const Complex once = std::exp(0.5 * slab.exponent);
+  if (slab.one_minus == 0.0) return {{0.0, 0.0}, {once, once}};
+  const auto both = [&](Complex r, Complex through) {
+    const Complex sum = summed(r, through, slab.one_minus);
+    return std::pair{r * slab.one_minus / sum, through * once / sum};
+  };
+  const auto te = both(slab.face.te, slab.through.te), tm = both(slab.face.tm, slab.through.tm);
+  return {{te.first, tm.first}, {te.second, tm.second}};
 }
 
 double wall_reflection(double absorption) {

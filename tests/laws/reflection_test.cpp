@@ -120,6 +120,12 @@ TEST(Reflection, TransmissionTheorems) {
       EXPECT_LT(std::abs(1.0 + r.te - t.te), 1e-15);
       EXPECT_LT(std::abs((1.0 + r.tm) / std::sqrt(Complex(4.5, -0.3)) - t.tm), 1e-15);
     }
+  // Grazing a film of a nanometre: the faces send all back, so it does too.
+  for (const double d : {1e-9, 1e-3, 1.0}) {
+    const auto grazing = slab_coefficients({5.24, -0.6}, d, 59, 0);
+    EXPECT_LT(std::abs(grazing.reflection.te + 1.0) + std::abs(grazing.reflection.tm + 1.0), 1e-15) << d;
+    EXPECT_EQ(grazing.transmission.te, Complex(0));
+  }
   const auto none = slab_coefficients({4.5, -0.3}, 0, 73, 0.5), air = slab_coefficients({1, 0}, 0.2, 73, 0.5);
   EXPECT_EQ(none.transmission.te, Complex(1));
   EXPECT_EQ(none.reflection.tm, Complex(0));
