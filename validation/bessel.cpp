@@ -1,6 +1,8 @@
 #include "validation/bessel.h"
 
 #include <boost/math/special_functions/bessel.hpp>
+#include <cmath>
+#include <limits>
 
 #include "core/contract.h"
 
@@ -23,7 +25,9 @@ double bessel_j(double order, double x) {
 
 std::complex<double> hankel2(double order, double x) {
   GRIMALDI_EXPECT(order >= 0 && x > 0);
-  return {boost::math::cyl_bessel_j(order, x, Policy{}), -boost::math::cyl_neumann(order, x, Policy{})};
+  double y = boost::math::cyl_neumann(order, x, Policy{});
+  if (!std::isfinite(y)) y = -std::numeric_limits<double>::infinity();  // whole orders overflow to NaN
+  return {boost::math::cyl_bessel_j(order, x, Policy{}), -y};
 }
 
 }  // namespace grimaldi

@@ -9,20 +9,22 @@
 namespace grimaldi {
 
 /// Fourier amplitude of an aperture under constant unit amplitude.
-/// Formula: I(kx, ky) = ∫ e^{+j(kx x + ky y)} dx dy. Polygon: fan of triangles, each 2|S| exp[z0, z1, z2], the second
-/// divided difference of exp at z = j k·vertex: the edge sum with its limits built in, no pole at k → 0 nor at k ⟂
-/// edge. Disc: 2πa² J1(qa)/(qa). Source: Born & Wolf, Principles of Optics, 8.5; Stenflo/Komrska edge sum; divided
-/// differences McCurdy et al. 1984. Inputs: kx, ky in rad per unit of length, any finite values; k·size ≤ 1e4. Returns:
-/// unit² of length. The far field of a unit plane wave e^{−jkz} (RS-I) is (jkz/(2πR²)) e^{−jkR} I(kx/R, ky/R)·[k into
-/// kx = k x/R]. Error: 1e-14 of the area for k·size ≤ 100, 1e-16·k·size beyond (held by Fraunhofer.*).
+/// Formula: I(kx, ky) = ∫ e^{+j(kx x + ky y)} dx dy. Polygon: a fan of triangles, each 2|S| exp[z0, z1, z2], the second
+/// divided difference of exp at z = jk·vertex. It is the edge sum with its limits built in: nothing cancels at k → 0 or
+/// at k perpendicular to an edge. Disc: 2πa² J1(qa)/(qa).
+/// Source: Born & Wolf, Principles of Optics, 8.5; McCurdy, Ng & Parlett, Math. Comp. 43 (1984) 501.
+/// Inputs: kx, ky in rad per unit of length, finite; the unit is that of the aperture.
+/// Returns: unit of length squared. The far field of a unit plane wave e^{−jkz} (Rayleigh-Sommerfeld, first kind) at a
+/// point (x, y, z) of distance R is (jkz/(2πR²)) e^{−jkR} I(k x/R, k y/R).
+/// Error: 1e-14 of the area for k·size ≤ 100, 1e-16·k·size of it beyond (held by Fraunhofer.*).
 std::complex<double> fraunhofer_integral(const Aperture& aperture, double kx, double ky);
 
 /// The same with a complex amplitude over the opening.
 /// Formula: ∫ A(x, y) e^{+j(kx x + ky y)} dx dy by products of Gauss-Legendre rules on triangles and rings, refined
 /// until two refinements agree.
-/// Inputs: A smooth on the closed opening.
-/// Error: 1e-12 of area·max|A| if A varies by no more than 30 rad or e-folds over the opening (held by Fraunhofer.*).
-/// Throws: std::runtime_error if the refinements do not agree.
+/// Inputs: A smooth on the convex hull of the opening.
+/// Error: 1e-13 of ∫|A| over the parts of the opening (held by Fraunhofer.Amplitude*).
+/// Throws: std::runtime_error if the refinements do not agree: A varies by more than a few hundred rad.
 std::complex<double> fraunhofer_integral(const Aperture& aperture,
                                          const std::function<std::complex<double>(double x, double y)>& amplitude,
                                          double kx, double ky);

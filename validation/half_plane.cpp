@@ -26,7 +26,7 @@ WedgeField half_plane_plane_wave(double k_rho, double phi, double phip) {
     faults.error({}, 0, "k_rho", fmt::format("{} is no distance", k_rho), "it must be finite and at least 0");
   const auto check = [&](const char* name, double angle) {
     if (!(angle >= -slack && angle <= 2 * pi + slack))
-      faults.error({}, 0, name, fmt::format("{:.6g}° is outside the space about the half-plane", angle * 180 / pi),
+      faults.error({}, 0, name, fmt::format("{:.12g}° is outside the space about the half-plane", angle * 180 / pi),
                    "angles go from 0 to 360° about the edge");
   };
   check("phi", phi);

@@ -18,12 +18,13 @@ struct DoubleKnifeEdge {
 };
 
 /// Field over the free field.
-/// Formula: (j/λ) √(D/(d1 d2 d3)) ∫_{h1}^∞ ∫_{h2}^∞ exp(−j(k/2)[x1²/d1 + (x2−x1)²/d2 + x2²/d3]) dx1 dx2, D = d1+d2+d3.
-/// It is the orthant of two correlated complex Gaussians: E(ν1) E(ν2) + (1/2π) ∫_0^{asin r} exp(−j(π/2)(ν1² + ν2² − 2
-/// ν1 ν2 sin θ)/cos² θ) dθ, r = √(d1 d3/((d1+d2)(d2+d3))), ν_i the parameters of each edge alone. Source: Millington,
-/// Hewitt & Immirzi, Proc. IEE 109C (1962); Plackett, Biometrika 41 (1954) for the second form. Error: 1e-12 absolute
-/// while |ν| ≤ 100 (held by DoubleKnifeEdge.*, against the double integral). Throws: InputErrors if a length is not > 0
-/// or a number not finite.
+/// Formula: (j/λ) √(D/(d1 d2 d3)) ∫_{h1}^∞ ∫_{h2}^∞ exp(−j(k/2)[x1²/d1 + (x2−x1)²/d2 + x2²/d3]) dx1 dx2,
+/// D = d1+d2+d3. It is the orthant of two correlated complex Gaussians: E(ν1) E(ν2) + (1/2π) ∫_0^{asin r}
+/// exp(−j(π/2)(ν1² + ν2² − 2 ν1 ν2 sin θ)/cos² θ) dθ, r = √(d1 d3/((d1+d2)(d2+d3))), ν_i and E(ν_i) of each edge alone.
+/// Source: Millington, Hewitt & Immirzi, Proc. IEE 109C (1962); Plackett, Biometrika 41 (1954) for the second form.
+/// Returns: dimensionless.
+/// Error: 1e-12 absolute while |ν| ≤ 100 (held by DoubleKnifeEdge.*, against the double integral).
+/// Throws: InputErrors if a length is not > 0 or a number not finite.
 std::complex<double> exact_double_knife_edge(const DoubleKnifeEdge& edges);
 
 /// −20 lg |field|, dB; +∞ for 0.

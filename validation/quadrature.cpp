@@ -18,7 +18,7 @@ using Function = std::function<Complex(double)>;
 
 constexpr double ulp = std::numeric_limits<double>::epsilon();
 constexpr std::size_t most_panels = 20000;
-constexpr int most_halvings = 20;
+constexpr int most_halvings = 14;
 
 // The 21-point rule of Kronrod (nodes ≥ 0; the odd places belong to the 10-point rule of Gauss), from QUADPACK's dqk21.
 constexpr std::array<double, 11> kronrod_nodes = {0.995657163025808080735527280689003,

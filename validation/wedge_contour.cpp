@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <vector>
 
 #include "core/constants.h"
@@ -93,6 +94,7 @@ class Half {
       return std::exp(-s * s) * path_.amplitude(s * s) * at.slope * scale_ * std::cosh(x) / std::tan(argument(at.t));
     };
     const Integral line = integrate_line(integrand, std::asinh(gaussian_reach / scale_), 0, 0.2);
+    if (!std::isfinite(line.error)) throw std::runtime_error("the diffraction integral of a wedge does not settle");
     return -std::polar(1 / (4 * pi * n_), -path_.apex) * line.value;
   }
 

@@ -28,13 +28,13 @@ class Faults {
  public:
   void wedge(double n) {
     if (!(n >= 0.05 && n <= 2))
-      list_.error({}, 0, "n", fmt::format("n = {:.6g} is no wedge here", n),
+      list_.error({}, 0, "n", fmt::format("n = {:.12g} is no wedge here", n),
                   "the exterior angle nπ goes from 9 to 360°: n from 0.05 to 2");
   }
   void angle(const char* name, double n, double phi) {
     if (!(phi >= -slack && phi <= n * pi + slack))
-      list_.error({}, 0, name, fmt::format("{:.6g}° is outside the free space of the wedge", phi * 180 / pi),
-                  fmt::format("angles go from 0 at one face to {:.6g}° at the other", n * 180));
+      list_.error({}, 0, name, fmt::format("{:.12g}° is outside the free space of the wedge", phi * 180 / pi),
+                  fmt::format("angles go from 0 at one face to {:.12g}° at the other", n * 180));
   }
   void distance(const char* name, double value) {
     if (!(value >= 0 && std::isfinite(value)))
@@ -78,18 +78,19 @@ WedgeField series(double n, double phi, double phip, double turning, const Coeff
   return {on_face ? 0.0 : soft, hard};
 }
 
-/// e^{jz} H_0^(2)(z), Re z > 0 or beyond its line by less than |z|.
-/// Formula: √(2j/πz) (1/√π) ∫ e^{−τ²} (1 + τ²/2jz)^{−1/2} dτ, the path of steepest descent of ∫ e^{−jz cosh v} dv.
+/// e^{jz} H_0^(2)(z), −π < arg z < π/2.
+/// Formula: 2j/√(2πw) (1/√π) ∫ e^{−τ²} (1 + τ²/2w)^{−1/2} dτ, w = jz, the path of steepest descent of ∫ e^{−jz cosh v}
+/// dv.
 Complex scaled_hankel(Complex z) {
-  const Complex branch = 1.0 / (2.0 * j * z);
-  const double scale = std::min(1.0, std::sqrt(std::abs(z)));
+  const Complex w = j * z;
+  const double scale = std::min(1.0, std::sqrt(std::abs(w)));
   const Integral line = integrate_line(
       [&](double x) {
         const double tau = scale * std::sinh(x);
-        return std::exp(-tau * tau) * scale * std::cosh(x) / std::sqrt(1.0 + tau * tau * branch);
+        return std::exp(-tau * tau) * scale * std::cosh(x) / std::sqrt(1.0 + tau * tau / (2.0 * w));
       },
       std::asinh(6.3 / scale), 0, 0.2);
-  return std::sqrt(2.0 * j / (pi * z)) * line.value / std::sqrt(pi);
+  return j * std::sqrt(2.0) / (pi * std::sqrt(w)) * line.value;
 }
 
 }  // namespace
@@ -121,7 +122,7 @@ WedgeField wedge_line_source(double n, double k_rho, double k_rho_s, double phi,
   faults.distance("k_rho_s", k_rho_s);
   faults.angle("phi", n, phi);
   faults.angle("phip", n, phip);
-  if (k_rho == k_rho_s && std::fabs(phi - phip) <= slack)
+  if (k_rho == k_rho_s && (k_rho == 0 || std::fabs(phi - phip) <= slack))
     faults.other("k_rho", "the receiver lies on the line source", "the field is infinite there");
   faults.finish();
   phi = within_faces(n, phi);

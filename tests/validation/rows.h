@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <sstream>
 #include <string>
 #include <vector>
 
