@@ -11,7 +11,7 @@
 
 namespace grimaldi {
 
-enum class Verb { none, coverage, profile, scene, eval };
+enum class Verb { none, coverage, profile, scene, eval, validate };
 
 struct Arguments {
   Verb verb = Verb::none;
@@ -23,6 +23,7 @@ struct Arguments {
   bool overwrite = false, quiet = false, json = false, progress = false;
   std::string rows_in = "-", rows_out = "-";  ///< of `eval`: files, - is stdin or stdout
   bool list = false, help = false;            ///< of `eval`: the functions, or what one of them is
+  std::vector<std::string> cases;             ///< of `validate`, whose cases `list` lists; empty: all
   std::optional<std::string> print;           ///< help or version: print this and end with `exit_code`
   int exit_code = 0;
 };

@@ -1,4 +1,4 @@
-// The program: verb → function; exit 0 done, 1 bad input, 2 a fault of ours.
+// The program: verb → function; exit 0 done, 1 bad input, 2 a fault of ours, 3 a validation missed.
 
 #include <fmt/format.h>
 
@@ -11,6 +11,7 @@
 #include "cli/eval_verb.h"
 #include "cli/run_verb.h"
 #include "cli/scene_verb.h"
+#include "cli/validate_verb.h"
 
 namespace {
 
@@ -24,6 +25,7 @@ int run(int argc, char** argv, std::chrono::steady_clock::time_point start) {
     return arguments.exit_code;
   }
   if (arguments.verb == Verb::eval) return eval_verb(arguments);
+  if (arguments.verb == Verb::validate) return validate_verb(arguments);
   return arguments.verb == Verb::scene ? scene_verb(arguments) : run_verb(arguments, start);
 }
 
