@@ -10,6 +10,7 @@
 #include "cli/output_folder.h"
 #include "cli/progress.h"
 #include "cli/report_page.h"
+#include "cli/theory_words.h"
 #include "propagation/result_file.h"
 #include "validation/cases/results_file.h"
 #include "validation/cases/suite.h"
@@ -34,6 +35,22 @@ std::string list_text(const std::vector<const Case*>& cases) {
   std::string text;
   for (const Case* one : cases) text += fmt::format("{:<44} {}\n", one->name, one->quantity);
   return text;
+}
+
+/// Lines of at most `width` bytes, cut at blanks.
+std::string wrapped(const std::string& text, std::size_t width) {
+  std::string out, line;
+  for (std::size_t from = 0; from < text.size();) {
+    const std::size_t to = std::min(text.find(' ', from), text.size());
+    const std::string word = text.substr(from, to - from);
+    if (!line.empty() && line.size() + 1 + word.size() > width) {
+      out += line + "\n";
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + word;
+    from = to + 1;
+  }
+  return out + line + "\n";
 }
 
 /// The figures, drawn, with names that are unique in the folder.
@@ -118,7 +135,10 @@ int validate_verb(const Arguments& arguments) {
   if (arguments.json) {
     fmt::print("{}", json);
   } else if (!arguments.quiet) {
-    fmt::print("{}{}\n", validation_table(results, seconds), folder.file("report.html").string());
+    fmt::print("{}\n", validation_table(results, seconds));
+    if (arguments.cases.empty())
+      for (const std::string& paragraph : theory_words(results)) fmt::print("{}\n", wrapped(paragraph, 110));
+    fmt::print("{}\n", folder.file("report.html").string());
   }
   return std::all_of(results.begin(), results.end(), [](const CaseResult& r) { return r.passed; }) ? 0 : 3;
 }

@@ -116,7 +116,7 @@ std::vector<Vec3> street_points() {
     points.push_back({x, y, 1.5});
   }
   for (int i = 0; i < 40; ++i)
-    points.push_back({-37.5 + 75 * (i % 2) + std::fmod(1.7 * i, 12.0) - 6, 12 + 0.3 * i, 1.5});
+    points.push_back({-75 + 150 * (i % 2) + std::fmod(1.7 * i, 12.0) - 6, 12 + 0.3 * i, 1.5});
   return points;
 }
 
@@ -156,6 +156,40 @@ Outcome against_street(const SceneDescription& other, const Motion& motion = {})
   const std::vector<Vec3> points = street_points();
   return difference(totals(run_engine(scene_of(street()), plan_at(points))),
                     totals(run_engine(scene_of(other), plan_at(points, motion))));
+}
+
+/// Differences of level within 40 dB of the strongest, ascending.
+std::vector<double> sorted_differences(const std::vector<double>& a, const std::vector<double>& b) {
+  const double top = *std::max_element(a.begin(), a.end());
+  std::vector<double> all;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (std::max(a[i], b[i]) > 1e-4 * top)
+      all.push_back(a[i] > 0 && b[i] > 0 ? std::abs(decibel(a[i] / b[i])) : 1000.0);
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+/// Paths of two interactions are found by chance: what a change of the scene does, beside what another seed does.
+/// Error: 90 % quantile of the former less that of the latter.
+Outcome within_noise(const SceneDescription& other, const Motion& motion = {}) {
+  const std::vector<Vec3> points = street_points();
+  PlanDescription plan = plan_at(points), there = plan_at(points, motion);
+  plan.depth = there.depth = 2;
+  const Scene scene = scene_of(street());
+  const std::vector<double> first = totals(run_engine(scene, plan)),
+                            changed = totals(run_engine(scene_of(other), there));
+  plan.seed = 2;
+  const std::vector<double> second = totals(run_engine(scene, plan));
+  const std::vector<double> change = sorted_differences(first, changed), noise = sorted_differences(first, second);
+  const auto quantile = [](const std::vector<double>& sorted) {
+    return sorted[std::size_t(0.9 * double(sorted.size() - 1))];
+  };
+  return {
+      std::max(0.0, quantile(change) - quantile(noise)),
+      fmt::format(
+          "90 % of {} points change by less than {:.3f} dB, by another seed {:.3f} dB; largest {:.3f} and {:.3f} dB",
+          change.size(), quantile(change), quantile(noise), change.back(), noise.back()),
+      {}};
 }
 
 /// A run of cells over an area, one transmitter.
@@ -265,6 +299,15 @@ Cases invariance_cases() {
       {"invariance/cell-points", "engine, cells of 5 m: largest difference over the stated error (at least 0.05 dB)",
        "mean of 144 receivers in each", "1", 4, "8 cells: 4 standard errors", 0, cell_against_points},
   };
+  const char* found = "engine, paths of two interactions: 90 % quantile of the differences less that of another seed";
+  const char* chance = "found by chance: no more than another seed changes, and 0.05 dB";
+  const auto noise = [&](const char* name, std::function<Outcome()> run) {
+    cases.push_back(
+        {fmt::format("invariance/two-interactions/{}", name), found, same, "dB", 0.05, chance, 0, std::move(run)});
+  };
+  noise("triangles-in-four", [] { return within_noise(cut_in_four(street())); });
+  noise("objects-split", [] { return within_noise(split(street())); });
+  noise("rotated-and-moved", [=] { return within_noise(moved(street(), both), both); });
   return cases;
 }
 
