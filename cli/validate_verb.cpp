@@ -101,6 +101,10 @@ std::string validation_table(const std::vector<CaseResult>& results, double seco
   return text;
 }
 
+int validation_exit_code(const std::vector<CaseResult>& results) {
+  return std::all_of(results.begin(), results.end(), [](const CaseResult& r) { return r.passed; }) ? 0 : 3;
+}
+
 int validate_verb(const Arguments& arguments) {
   const Clock::time_point start = Clock::now();
   Diagnostics diagnostics;
@@ -140,7 +144,7 @@ int validate_verb(const Arguments& arguments) {
       for (const std::string& paragraph : theory_words(results)) fmt::print("{}\n", wrapped(paragraph, 110));
     fmt::print("{}\n", folder.file("report.html").string());
   }
-  return std::all_of(results.begin(), results.end(), [](const CaseResult& r) { return r.passed; }) ? 0 : 3;
+  return validation_exit_code(results);
 }
 
 }  // namespace grimaldi

@@ -13,8 +13,11 @@ namespace grimaldi {
 /// counts and what missed. Inputs: wall time of the whole, s.
 std::string validation_table(const std::vector<CaseResult>& results, double seconds);
 
-/// Runs the verb: DIR/validate.json, report.html and its figures as figure-*.png. Returns 0, or 3 if a case misses;
-/// throws InputErrors.
+/// Exit code of a validation: 0, or 3 if a case misses.
+int validation_exit_code(const std::vector<CaseResult>& results);
+
+/// Runs the verb: DIR/validate.json, report.html and its figures as figure-*.png. Returns
+/// validation_exit_code; throws InputErrors.
 int validate_verb(const Arguments& arguments);
 
 }  // namespace grimaldi
