@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "core/constants.h"
 #include "propagation/laws/free_space_diffraction.h"
 #include "propagation/laws/published_diffraction.h"
 #include "validation/cases/families.h"
 #include "validation/cases/opening.h"
+#include "validation/cases/patterns.h"
 #include "validation/fraunhofer.h"
 #include "validation/knife_edge.h"
 #include "validation/quadrature.h"
@@ -20,79 +20,6 @@ namespace grimaldi {
 namespace {
 
 using Complex = std::complex<double>;
-using Theory = std::function<Complex(const Opening&, const Vec3&)>;
-
-const std::vector<std::pair<const char*, Theory>>& theories() {
-  static const std::vector<std::pair<const char*, Theory>> list = {
-      {"Rayleigh-Sommerfeld", true_field},
-      {"Fraunhofer", fraunhofer_field},
-      {"BSDF, whole polygon", polygon_field},
-      {"BSDF as printed", printed_field},
-      {"UTD, edges with ends", [](const Opening& o, const Vec3& p) { return connected_field(o, p); }},
-      {"UTD, cones alone", [](const Opening& o, const Vec3& p) { return connected_field(o, p, EdgeEnds::none); }}};
-  return list;
-}
-
-double level(const Complex& field) { return std::max(20 * std::log10(std::abs(field)), -300.0); }
-
-/// Patterns on the plane at N, over the peak of the truth, dB.
-Figure patterns(const Opening& shape, double fresnel_number, std::string file, std::string title, std::string caption,
-                double reach, const std::vector<std::size_t>& chosen) {
-  const double z = distance_of(shape.size, fresnel_number), half = reach * (shape.size / 2 + z / shape.size);
-  constexpr int side = 128;
-  RasterRow row;
-  row.title = std::move(title);
-  row.x_name = "x/λ", row.y_name = "y/λ", row.scale_name = "intensity, dB";
-  row.left = row.bottom = -half, row.right = row.top = half;
-  row.low = -40, row.high = 0;
-  double peak = -300;
-  for (const std::size_t t : chosen) {
-    Raster raster{theories()[t].first, side, {}};
-    for (int j = 0; j < side; ++j)
-      for (int i = 0; i < side; ++i) {
-        const Vec3 point{half * ((2 * i + 1.0) / side - 1), half * ((2 * j + 1.0) / side - 1), z};
-        raster.values.push_back(level(theories()[t].second(shape, point)));
-      }
-    if (t == 0) peak = *std::max_element(raster.values.begin(), raster.values.end());
-    for (double& value : raster.values) value -= peak;
-    row.panels.push_back(std::move(raster));
-  }
-  return {std::move(file), std::move(caption), std::move(row)};
-}
-
-/// Cuts along x at y = 0, over the peak of the truth.
-Figure cuts(const Opening& shape, double fresnel_number, std::string file, std::string title, std::string caption,
-            double reach, const std::vector<std::size_t>& chosen) {
-  const double z = distance_of(shape.size, fresnel_number),
-               half = std::min(reach * (shape.size / 2 + z / shape.size), 1.7 * z);
-  LineChart chart;
-  chart.title = std::move(title);
-  chart.x_name = "x/λ", chart.y_name = "intensity, dB";
-  chart.low = -45, chart.high = 10;
-  double peak = -300;
-  for (const std::size_t t : chosen) {
-    Curve curve{theories()[t].first, {}, {}};
-    for (int i = 0; i <= 800; ++i) {
-      const double x = half * (i / 400.0 - 1);
-      curve.x.push_back(x);
-      curve.y.push_back(level(theories()[t].second(shape, {x, 1e-3, z})));  // not on a symmetry plane of corners
-    }
-    if (t == 0) peak = *std::max_element(curve.y.begin(), curve.y.end());
-    for (double& value : curve.y) value -= peak;
-    chart.curves.push_back(std::move(curve));
-  }
-  return {std::move(file), std::move(caption), std::move(chart)};
-}
-
-double median_error(const Opening& shape, double fresnel_number, const Theory& theory) {
-  std::vector<double> truth, ours;
-  for (const Vec3& point : observation_points(shape, distance_of(shape.size, fresnel_number), 1024)) {
-    truth.push_back(std::norm(true_field(shape, point)));
-    ours.push_back(std::norm(theory(shape, point)));
-  }
-  return pattern_error(ours, truth).median;
-}
-
 /// |α1|, |α2| in canonical space, whole and without the central lobe.
 Figure canonical_space() {
   RasterRow row;
@@ -114,7 +41,7 @@ Figure canonical_space() {
       for (int i = 0; i < side; ++i) {
         const double x = 15 * ((2 * i + 1.0) / side - 1), y = 15 * ((2 * j + 1.0) / side - 1);
         const double kept = panel.whole ? 1 : std::sqrt(-std::expm1(-(x * x + y * y) / 6));
-        raster.values.push_back(level(kept * (panel.first ? alpha1(x, y) : alpha2(x, y))));
+        raster.values.push_back(level_of(kept * (panel.first ? alpha1(x, y) : alpha2(x, y))));
       }
     row.panels.push_back(std::move(raster));
   }
@@ -193,62 +120,70 @@ Outcome tessellation() {
   return {std::abs(10 * std::log10(power[1] / power[0])), "one edge of constant amplitude, cut in eight", {}};
 }
 
+constexpr Theory truth = Theory::truth, fraunhofer = Theory::fraunhofer, polygon = Theory::polygon,
+                 printed = Theory::printed, edges = Theory::edges, cones = Theory::cones;
+
+/// Median error of the whole polygon at N = 0.1; the others' in the note.
+Outcome far_away(const Opening& shape) {
+  return {median_error(polygon, shape, 0.1),
+          fmt::format("as printed {:.2f} dB, UTD with ends {:.2f} dB", median_error(printed, shape, 0.1),
+                      median_error(edges, shape, 0.1)),
+          {}};
+}
+
 Outcome ring() {
   const Opening shape = opening("ring", 30);
-  Outcome outcome{median_error(shape, 0.1, polygon_field),
-                  fmt::format("as printed {:.1f} dB, UTD with ends {:.1f} dB", median_error(shape, 0.1, printed_field),
-                              median_error(shape, 0.1, theories()[4].second)),
-                  {}};
+  Outcome outcome = far_away(shape);
   outcome.figures = {
-      patterns(shape, 0.1, "ring-32", "Ring of 32 edges, D = 30 λ, N = 0.1",
-               "The published ring, two circles of 32 edges each. The whole polygon is the truth; as printed each edge "
-               "loses "
-               "its lobe and with it the rings; UTD by cones alone draws the strips of 64 edges.",
-               3, {0, 1, 2, 3, 5}),
-      patterns(shape, 3, "ring-32-near", "The same ring at N = 3",
-               "Nearer to the ring the far field is the wrong picture and edges are nearer to the truth.", 1.3,
-               {0, 2, 3, 4, 5})};
+      pattern_figure(
+          shape, 0.1, 3, {truth, fraunhofer, polygon, printed, cones},
+          {"ring-32", "Ring of 32 edges, D = 30 λ, N = 0.1",
+           "The published ring, two circles of 32 edges each. The whole polygon is the truth; as printed each edge "
+           "loses its lobe and with it the rings; UTD by cones alone draws the strips of 64 edges."}),
+      pattern_figure(shape, 3, 1.3, {truth, polygon, printed, edges, cones},
+                     {"ring-32-near", "The same ring at N = 3",
+                      "Nearer to the ring the far field is the wrong picture and edges are nearer to the truth."})};
   return outcome;
 }
 
 Outcome double_slit() {
   const Opening shape = opening("double-slit", 30);
-  Outcome outcome{median_error(shape, 0.1, polygon_field),
-                  fmt::format("as printed {:.2f} dB, UTD with ends {:.2f} dB", median_error(shape, 0.1, printed_field),
-                              median_error(shape, 0.1, theories()[4].second)),
-                  {}};
-  outcome.figures = {cuts(shape, 0.1, "double-slit", "Double slit, D = 30 λ, N = 0.1: cut across the slits",
-                          "Far away every theory that knows ends and lobes has the fringes.", 4, {0, 2, 3, 4}),
-                     cuts(shape, 3, "double-slit-near", "Double slit, D = 30 λ, N = 3: cut across the slits",
-                          "Nearer, the far field puts its fringes where the truth has the shadows of the slits; edges "
-                          "follow the truth.",
-                          2, {0, 2, 3, 4})};
+  Outcome outcome = far_away(shape);
+  outcome.figures = {
+      cut_figure(shape, 0.1, 4, {truth, polygon, printed, edges},
+                 {"double-slit", "Double slit, D = 30 λ, N = 0.1: cut across the slits",
+                  "Far away every theory that knows ends and lobes has the fringes."}),
+      cut_figure(
+          shape, 3, 2, {truth, polygon, printed, edges},
+          {"double-slit-near", "Double slit, D = 30 λ, N = 3: cut across the slits",
+           "Nearer, the far field puts its fringes where the truth has the shadows of the slits; edges follow it."})};
   return outcome;
 }
 
-Outcome square_patterns() {
+Outcome square() {
   const Opening shape = opening("square", 10);
-  Outcome outcome{median_error(shape, 0.1, polygon_field), {}, {}};
-  for (const double n : {0.1, 3.0})
-    outcome.figures.push_back(patterns(shape, n, n < 1 ? "square-far" : "square-near",
-                                       fmt::format("Square opening of 10 λ, N = {:g}", n),
-                                       n < 1 ? "Far: the polygon form and edges with ends are the truth, cones are not."
-                                             : "Near: the polygon form is a far field still, edges follow the truth.",
-                                       n < 1 ? 3 : 1.2, {0, 1, 2, 4, 5}));
-  outcome.figures.push_back(cuts(shape, 0.3, "square-cut", "Square opening of 10 λ, N = 0.3: cut along x",
-                                 "At N = 0.3 the far field still has the lobes, its zeros are too deep.", 3,
-                                 {0, 1, 2, 3, 4}));
+  Outcome outcome = far_away(shape);
+  outcome.figures = {pattern_figure(shape, 0.1, 3, {truth, fraunhofer, polygon, edges, cones},
+                                    {"square-far", "Square opening of 10 λ, N = 0.1",
+                                     "Far: the polygon form and edges with ends are the truth, cones are not."}),
+                     pattern_figure(shape, 3, 1.2, {truth, fraunhofer, polygon, edges, cones},
+                                    {"square-near", "Square opening of 10 λ, N = 3",
+                                     "Near: the polygon form is a far field still, edges follow the truth."}),
+                     cut_figure(shape, 0.3, 3, {truth, fraunhofer, polygon, printed, edges},
+                                {"square-cut", "Square opening of 10 λ, N = 0.3: cut along x",
+                                 "At N = 0.3 the far field still has the lobes, its zeros are too deep."})};
   return outcome;
 }
 
 /// Level behind a half-plane, 1 GHz, 100 m on both sides: the published estimate and the repaired law.
-Outcome behind_an_edge(bool printed) {
+Outcome behind_an_edge(bool as_printed) {
   constexpr double wavelength = 0.299792458, before = 100, behind = 100;
   LineChart chart;
   chart.title = "Behind a half-plane: 1 GHz, 100 m on either side";
   chart.x_name = "Fresnel parameter v", chart.y_name = "level over free space, dB";
   chart.low = -35, chart.high = 0;
-  Curve truth{"Fresnel integral", {}, {}}, old_form{"BSDF as printed, σ = 25 λ", {}, {}}, repaired{"repaired", {}, {}};
+  Curve exact_curve{"Fresnel integral", {}, {}}, old_form{"BSDF as printed, σ = 25 λ", {}, {}},
+      repaired{"repaired", {}, {}};
   Outcome outcome;
   for (double v = 0.2; v <= 4.01; v += 0.4) {
     const double length = before * behind / (before + behind);
@@ -259,19 +194,19 @@ Outcome behind_an_edge(bool printed) {
     const double free = distance(Vec3{-before, 0, 0}, Vec3{behind, 0, -below}) / (before + s);
     const double ours =
         20 * std::log10(std::abs(edge_wave(fresnel_parameter(leg, wavelength, 1, epsilon), true)) * free);
-    const double theirs = printed ? 10 * std::log10(published_half_plane_level({25 * wavelength, 12}, wavelength,
-                                                                               before, behind, below, 1000, 200))
-                                  : NAN;
+    const double theirs = as_printed ? 10 * std::log10(published_half_plane_level({25 * wavelength, 12}, wavelength,
+                                                                                  before, behind, below, 1000, 200))
+                                     : NAN;
     // The exact level at the true detour.
     const double detour = before + s - distance(Vec3{-before, 0, 0}, Vec3{behind, 0, -below});
     const double at_detour = -diffraction_loss(exact_knife_edge(2 * std::sqrt(detour / wavelength)));
-    outcome.error = std::max(outcome.error, std::abs((printed ? theirs : ours) - at_detour));
-    truth.x.push_back(v), truth.y.push_back(exact);
+    outcome.error = std::max(outcome.error, std::abs((as_printed ? theirs : ours) - at_detour));
+    exact_curve.x.push_back(v), exact_curve.y.push_back(exact);
     old_form.x.push_back(v), old_form.y.push_back(theirs);
     repaired.x.push_back(v), repaired.y.push_back(ours);
   }
-  if (printed) {
-    chart.curves = {truth, old_form, repaired};
+  if (as_printed) {
+    chart.curves = {exact_curve, old_form, repaired};
     outcome.figures = {
         {"behind-an-edge",
          "The published estimate, footprint of 25 wavelengths, against the Fresnel integral; the repaired law "
@@ -304,7 +239,7 @@ Outcome weight_of_hits() {
 }  // namespace
 
 Cases published_cases() {
-  const std::string truth = "Rayleigh-Sommerfeld integral, first kind";
+  const std::string integral = "Rayleigh-Sommerfeld integral, first kind";
   return {
       {"published/canonical/sum", "edge waves of a polygon, whole, summed: largest |error| over k A/2 pi",
        "Fraunhofer integral", "1", 1e-13, "the edges' poles 1/xi cancel to 1e-15/xi", 0, canonical_sum},
@@ -313,17 +248,17 @@ Cases published_cases() {
        edge_powers},
       {"published/canonical/tessellation", "power of an edge without lobes when cut in eight: change", "no change",
        "dB", 9.1, "a fact: the printed form depends on how a rim is cut, as 1/n: 9.03 dB", 8.9, tessellation},
-      {"published/ring", "ring of 32 edges, N = 0.1, whole polygon: median |error of level|", truth, "dB", 0.1,
+      {"published/ring", "ring of 32 edges, N = 0.1, whole polygon: median |error of level|", integral, "dB", 0.1,
        "far field", 0, ring},
-      {"published/ring-as-printed", "ring of 32 edges, N = 0.1, as printed: median |error of level|", truth, "dB", 14,
-       "a fact: 64 short edges, each without its lobe; 4 to 14 dB", 4,
+      {"published/ring-as-printed", "ring of 32 edges, N = 0.1, as printed: median |error of level|", integral, "dB",
+       14, "a fact: 64 short edges, each without its lobe; 4 to 14 dB", 4,
        [] {
-         return Outcome{median_error(opening("ring", 30), 0.1, printed_field), {}, {}};
+         return Outcome{median_error(printed, opening("ring", 30), 0.1), {}, {}};
        }},
-      {"published/double-slit", "double slit, N = 0.1, whole polygon: median |error of level|", truth, "dB", 0.1,
+      {"published/double-slit", "double slit, N = 0.1, whole polygon: median |error of level|", integral, "dB", 0.1,
        "far field", 0, double_slit},
-      {"published/square", "square, N = 0.1, whole polygon: median |error of level|", truth, "dB", 0.1, "far field", 0,
-       square_patterns},
+      {"published/square", "square, N = 0.1, whole polygon: median |error of level|", integral, "dB", 0.1, "far field",
+       0, square},
       {"published/edge/printed",
        "level behind a half-plane as printed, sigma = 25 wavelengths, v from 0.2 to 4: largest |error|",
        "Fresnel integral", "dB", 9, "a fact: -7 to +6 dB", 3, [] { return behind_an_edge(true); }},

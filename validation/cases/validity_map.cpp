@@ -127,6 +127,21 @@ Outcome run_map(const std::string& name, double edge, const std::function<double
 /// lg of the ratio of the crossing to 0.3, which the choice of `auto` rests on.
 double crossing_error(const Map& map, int row) { return std::abs(std::log10(crossing(map, row) / 0.3)); }
 
+/// Share of the directions that count in which UTD without waves of ends has nothing, 20 dB below the truth or less.
+Outcome holes() {
+  const Opening shape = opening("triangle", 10);
+  double most = 0, empty = 0, all = 0;
+  const std::vector<Vec3> points = observation_points(shape, distance_of(10, 0.1), 2048);
+  for (const Vec3& point : points) most = std::max(most, std::norm(true_field(shape, point)));
+  for (const Vec3& point : points) {
+    const double truth = std::norm(true_field(shape, point));
+    if (truth < 0.01 * most) continue;
+    ++all;
+    empty += std::norm(connected_field(shape, point, EdgeEnds::none)) < 0.01 * truth;
+  }
+  return {empty / all, fmt::format("{:.0f} of {:.0f} directions", empty, all), {}};
+}
+
 }  // namespace
 
 Cases validity_cases() {
@@ -155,7 +170,16 @@ Cases validity_cases() {
       "Fresnel zone: both meet between N = 0.1 and 1",
       0,
       [] { return run_map("triangle", 10, crossing_error); }};
-  return {squares, triangles};
+  Case without_ends{
+      "validity/holes",
+      "UTD without waves of ends, triangle of 10 wavelengths, N = 0.1: share of the directions with a hole",
+      "Rayleigh-Sommerfeld integral, first kind",
+      "1",
+      0.95,
+      "a fact: between the strips of its edges there is nothing; half the directions and more",
+      0.5,
+      holes};
+  return {squares, triangles, without_ends};
 }
 
 }  // namespace grimaldi
