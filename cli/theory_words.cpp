@@ -30,11 +30,13 @@ Span span_of(const std::vector<CaseResult>& results, const std::vector<std::stri
   return span;
 }
 
-/// " (measured: 0.01 to 0.3 dB)" or nothing.
+/// " (measured here: 0.01 to 0.3 dB)" or nothing.
 std::string measured(const std::vector<CaseResult>& results, const std::vector<std::string>& parts,
                      const char* unit = " dB") {
   const Span span = span_of(results, parts);
-  return span.any ? fmt::format(" (measured here: {:.2g} to {:.2g}{})", span.least, span.most, unit) : "";
+  if (!span.any) return "";
+  const std::string least = fmt::format("{:.2g}", span.least), most = fmt::format("{:.2g}", span.most);
+  return fmt::format(" (measured here: {}{})", least == most ? most : least + " to " + most, unit);
 }
 
 }  // namespace
@@ -75,13 +77,14 @@ std::vector<std::string> theory_words(const std::vector<CaseResult>& results) {
       "corners are right-angled, or N is 0.4 and more, and edges are longer than two wavelengths; in between, and for "
       "other "
       "corners, both err by 0.5 to 1.2 dB.",
-      "Solid wedges: UTD is exact for the half-plane and within some thousandths of the field a few wavelengths from "
-      "other "
-      "edges" +
-          measured(results, {"wedges/utd/"}, "") +
-          "; three black edges, the BSDF of a wedge, are exact for the half-plane and err by decibels for a soft wedge "
-          "near "
-          "grazing: UTD is to be used there.",
+      "Solid wedges: UTD is exact for the half-plane; for other wedges what it leaves out is some hundredths of the "
+      "field at "
+      "kρ = 1" +
+          measured(results, {"wedges/utd/270/", "/k-rho-1/"}, "") + " and falls as 1/kρ" +
+          measured(results, {"wedges/utd/270/", "/k-rho-100/"}, " at kρ = 100") +
+          ". Three black edges, the BSDF of a wedge, are good for a hard wedge" +
+          range({"wedges/black-edges/", "/hard/"}) + " and err for a soft one near grazing" +
+          range({"wedges/black-edges/270/soft/"}) + ": UTD is to be used there.",
       "The BSDF in its printed form takes the central lobe out of every edge, so that what is left depends on how "
       "finely a "
       "rim is cut; it is kept for comparison alone.",

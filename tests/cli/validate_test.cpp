@@ -32,7 +32,7 @@ TEST_F(Validate, WritesTableJsonAndReport) {
   EXPECT_NE(outcome.out.find("pass materials/slab/matrix"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("9 of 9 cases pass, 0 miss"), std::string::npos) << outcome.out;
   EXPECT_EQ(files_in("validate.out"),
-            (std::vector<std::string>{"figure-wedge-270.png", "report.html", "validate.json"}));
+            (std::vector<std::string>{"figure-wedge-270-hard.png", "report.html", "validate.json"}));
   const Json json = Json::parse(contents("validate.out/validate.json"));
   EXPECT_EQ(json["cases"].size(), 9u);
   EXPECT_EQ(json["passed"], 9);

@@ -163,8 +163,8 @@ Figure side_by_side(const std::string& name) {
   return pattern_figure(
       opening(name, 10), 0.3, 2, {truth, fraunhofer, polygon, edges, cones},
       {"opening-" + name, fmt::format("Opening: {}, D = 10 λ, N = 0.3", name),
-       "Between near and far: the polygon form has the lobes, edges with ends their places; cones alone "
-       "leave holes."});
+       "Between near and far: the polygon form has the lobes. Edges with ends are right behind right-angled "
+       "corners alone; others need a wave of the corner. Cones alone leave holes."});
 }
 
 Complex by_edges(const Opening& shape, const Vec3& point) { return connected_field(shape, point); }

@@ -50,10 +50,11 @@ Outcome black_half_plane(const Link& link) {
     add_receiver(plan, {link.behind, 0, height_for(v, link.before, link.behind, wavelength)});
   const Result result = run_engine(scene, plan);
   LineChart chart;
-  chart.title = fmt::format("Half-plane through the engine: {}", link.name);
+  chart.title = fmt::format("Half-plane through the engine: {}, {:g} Hz, {:g} m and {:g} m",
+                            link.kind == WaveKind::radio ? "radio" : "sound", link.frequency, link.before, link.behind);
   chart.x_name = "Fresnel parameter v (> 0 in shadow)";
   chart.y_name = "level over free space, dB";
-  chart.low = -25, chart.high = 5;
+  chart.low = -30, chart.high = 5;
   Curve truth{"Fresnel integral", {}, {}}, engine{"engine", {}, {}};
   Outcome outcome;
   for (std::size_t i = 0; i < levels.size(); ++i) {
