@@ -73,6 +73,9 @@ TEST(Cases, EachHasANameAToleranceAndAReason) {
     EXPECT_TRUE(one.run);
   }
   EXPECT_GT(names.size(), 300u);
+  const std::vector<std::string> suites = suite_names();
+  EXPECT_EQ(std::set<std::string>(suites.begin(), suites.end()).size(), suites.size())
+      << "a suite stands in two places";
 }
 
 TEST(Cases, SelectedByNameSuiteAndPart) {

@@ -246,12 +246,15 @@ Cases extreme_engine_cases() {
        [] { return moved_far(5e5); }},
       {"extremes/engine/moved-5e6", quantity, fresnel, "dB", 0.05, "the law's own 0.02 dB; doubles keep 1e-9 m", 0,
        [] { return moved_far(5e6); }},
-      {"extremes/engine/carriers", "the same, 20 Hz to 300 GHz, 100 m on either side", fresnel, "dB", 0.2,
-       "bends of up to 17 degrees: paraxial truth, 0.1 dB", 0, all_carriers},
-      {"extremes/engine/long-links", "the same, source 10 m to 100 km before the edge", fresnel, "dB", 0.1,
-       "the law's own angle; ends of the 4 km edge", 0, long_links},
-      {"extremes/engine/close", "the same, 1 mm to 0.1 m on either side, 300 GHz", fresnel, "dB", 0.1,
-       "the law's own angle; a ray leaves an edge at 0.1 mm", 0, close_to_an_edge},
+      {"extremes/engine/carriers",
+       "engine behind a black half-plane, 20 Hz to 300 GHz, 100 m on either side: largest |error of level|", fresnel,
+       "dB", 0.2, "bends of up to 17 degrees: paraxial truth, 0.1 dB", 0, all_carriers},
+      {"extremes/engine/long-links",
+       "engine behind a black half-plane, source 10 m to 100 km before the edge: largest |error of level|", fresnel,
+       "dB", 0.1, "the law's own angle; ends of the 4 km edge", 0, long_links},
+      {"extremes/engine/close",
+       "engine behind a black half-plane, 1 mm to 0.1 m on either side, 300 GHz: largest |error of level|", fresnel,
+       "dB", 0.1, "the law's own angle; a ray leaves an edge at 0.1 mm", 0, close_to_an_edge},
       {"extremes/engine/boundary", "engine exactly on the shadow boundary, 20 Hz to 300 GHz: largest |error of level|",
        "-6.02 dB", "dB", 0.2, half, 0, [] { return on_the_boundary(0, {}, {0}); }},
       {"extremes/engine/beside-the-boundary",
@@ -259,7 +262,8 @@ Cases extreme_engine_cases() {
        [] {
          return on_the_boundary(0, {}, {-1e-5, -1e-7, -1e-9, 1e-9, 1e-7, 1e-5});
        }},
-      {"extremes/engine/boundary-tilted", "the same on and beside the boundary, scene tilted by 17 degrees and moved",
+      {"extremes/engine/boundary-tilted",
+       "engine on and beside the shadow boundary, scene tilted by 17 degrees and moved: largest |error of level|",
        "-6.02 dB", "dB", 0.2, half, 0,
        [] {
          return on_the_boundary(0.3, {1234.567, -89.01, 2.345}, {-1e-5, -1e-7, -1e-9, 0, 1e-9, 1e-7, 1e-5});

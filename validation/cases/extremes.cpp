@@ -288,8 +288,9 @@ Cases extreme_kernel_cases() {
                      "transform of a triangle, ke from 0 to 1e8: largest |error| over (2e-15 + 4.5e-16 k reach) area",
                      "80 digits, divided differences", "1", 1, "the bound that the header states", 0,
                      [kind = std::string(kind)] { return triangles(kind); }});
-  cases.push_back({"extremes/triangle/digits", "the same: largest |error| over the value and 1 + ke", "80 digits", "1",
-                   1e-15, "an ulp of each phase, a few of the value: weak directions keep their digits", 0,
+  cases.push_back({"extremes/triangle/digits",
+                   "transform of a triangle, ke from 0 to 1e8: largest |error| over the value and 1 + ke", "80 digits",
+                   "1", 1e-15, "an ulp of each phase, a few of the value: weak directions keep their digits", 0,
                    triangle_digits});
   cases.push_back({"extremes/aperture/forward", "square opening, xi to 0, ke from 1e-6 to 1e8: largest relative error",
                    "closed form k A/2 pi", "1", 4e-15, "the transform has no pole: a few ulp", 0, forward});
@@ -310,7 +311,9 @@ Cases extreme_kernel_cases() {
                    "UTD, wedges of 0 to 350 degrees at faces and boundaries: numbers out of all bounds",
                    "no more than the images there are", "1", 0, "no NaN, no infinity", 0,
                    [] { return wedges_of_all_angles(false); }});
-  cases.push_back({"extremes/wedges/exact", "the same wedges: largest |error| times k rho", "exact wedge", "1", 0.5,
+  cases.push_back({"extremes/wedges/exact",
+                   "UTD, wedges of 0 to 350 degrees at faces and boundaries: largest |error| times k rho",
+                   "exact wedge", "1", 0.5,
                    "what UTD leaves out next to its boundaries, of order 1/(k rho) and more at inner corners", 0,
                    [] { return wedges_of_all_angles(true); }});
   cases.push_back({"extremes/wedges/slots",

@@ -19,8 +19,10 @@ Cases validity_cases();
 Cases wedge_cases();
 /// One and two knife edges, and the half-plane as a mesh through the whole engine.
 Cases knife_edge_cases();
-/// Solid edges in the engine: wedges against exact fields, a wall with two edges against boundary elements.
-Cases solid_edge_cases();
+/// Wedges in the engine against exact fields.
+Cases engine_wedge_cases();
+/// A wall with two edges of one top, in the engine, against boundary elements.
+Cases thick_screen_cases();
 /// What must be conserved.
 Cases energy_cases();
 /// The figures of the papers, in the printed and in the repaired form.

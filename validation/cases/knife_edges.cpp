@@ -128,7 +128,8 @@ Cases knife_edge_cases() {
                      return outcome;
                    }});
   cases.push_back({"knife-edges/edge-wave", "lit part and edge wave, v from 0 to 30: largest |error|",
-                   "Fresnel integral by quadrature on a rotated ray", "1", 5e-13, "as above", 0, [] {
+                   "Fresnel integral by quadrature on a rotated ray", "1", 5e-13,
+                   "1e-14 of the kernel, 2e-16 v^2 of the reference (2e-13 at v = 30)", 0, [] {
                      Outcome outcome;
                      for (double v = 0; v <= 30; v += 0.0625) {
                        const Complex phase = std::polar(1.0, -pi / 2 * v * v);
@@ -154,7 +155,11 @@ Cases knife_edge_cases() {
        1.5,
        12,
        "a fact: the second edge lies in the transition region of the first, where a product of waves fails"},
-      {"close", {0.125, 200, 5, 300, 4, 4}, 1.5, 12, "a fact, as above"},
+      {"close",
+       {0.125, 200, 5, 300, 4, 4},
+       1.5,
+       12,
+       "a fact: the second edge lies in the transition region of the first, where a product of waves fails"},
   };
   for (const auto& pair : pairs)
     cases.push_back({fmt::format("knife-edges/two/{}", pair.name),
@@ -168,7 +173,9 @@ Cases knife_edge_cases() {
       {{"radio-100-100", WaveKind::radio, 1e9, 100, 100},
        0.05,
        "the law's own angle (Keller against paraxial) at v = 4: 0.04 dB"},
-      {{"radio-1000-100", WaveKind::radio, 1e9, 1000, 100}, 0.06, "as above"},
+      {{"radio-1000-100", WaveKind::radio, 1e9, 1000, 100},
+       0.06,
+       "the law's own angle (Keller against paraxial): 0.04 dB at v = 4, and 0.01 dB of the fringes on the lit side"},
       {{"sound-20-20", WaveKind::acoustic, 500, 20, 20},
        0.5,
        "at v = 4 the ray bends by 35 degrees: the paraxial truth itself is 0.4 dB off"},

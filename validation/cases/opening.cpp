@@ -119,10 +119,6 @@ const std::vector<std::string>& opening_names() {
   return names;
 }
 
-Opening rectangle(double wide, double high) {
-  return of_loops("rectangle", std::max(wide, high), {box(-wide / 2, wide / 2, -high / 2, high / 2)});
-}
-
 Opening opening(const std::string& name, double size) {
   const double r = size / 2;
   if (name == "square") return of_loops(name, size, {box(-r, r, -r, r)});

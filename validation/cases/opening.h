@@ -15,7 +15,7 @@ namespace grimaldi {
 /// One opening as both sides take it: loops for the references and the edges, triangles of amplitude 1 for the BSDF.
 struct Opening {
   std::string name;
-  double size = 0;            ///< D, the largest of its two extents; the smallest edge is `shortest`
+  double size = 0;            ///< D
   double wide = 0, high = 0;  ///< extents along x and y
   double shortest = 0;        ///< length of the shortest edge
   Aperture aperture;
@@ -29,8 +29,6 @@ const std::vector<std::string>& opening_names();
 
 /// The opening of that name and size D.
 Opening opening(const std::string& name, double size);
-/// A rectangle.
-Opening rectangle(double wide, double high);
 
 /// Distance behind the screen at which an opening of size D has the Fresnel number N = (D/2)²/(λz).
 double distance_of(double size, double fresnel_number);

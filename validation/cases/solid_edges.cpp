@@ -107,7 +107,7 @@ Outcome wedge_in_the_engine(double interior, bool soft, const std::vector<double
 
 }  // namespace
 
-Cases solid_edge_cases() {
+Cases engine_wedge_cases() {
   Cases cases;
   const char* exact = "exact field of a point source";
   for (const double interior : {30.0, 60.0, 90.0, 135.0})
@@ -129,6 +129,11 @@ Cases solid_edge_cases() {
                      "a fact: near its face the soft field vanishes, its three terms do not; UTD is for that", 2, [=] {
                        return wedge_in_the_engine(interior, true, {30, 50});
                      }});
+  return cases;
+}
+
+Cases thick_screen_cases() {
+  Cases cases;
   const char* quantity = "engine over a block of that many wavelengths: median |error of level|";
   for (const double width : {0.25, 1.0}) {
     cases.push_back({fmt::format("knife-edges/thick-screen/{:g}/hard", width), quantity, "boundary elements", "dB", 1.2,
