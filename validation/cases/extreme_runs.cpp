@@ -240,11 +240,11 @@ Cases extreme_engine_cases() {
   const char* quantity = "engine behind a black half-plane: largest |error of level|, v from -1 to 2";
   return {
       {"extremes/engine/free-space",
-       "engine, direct wave from 1 mm to 100 km, 20 Hz to 300 GHz: largest |error of level|", "closed form", "dB", 1e-6,
+       "engine, direct wave from 1 mm to 100 km, 20 Hz to 300 GHz: largest |error of level|", "closed form", "dB", 1e-9,
        "an ulp of the coordinates at 1 mm", 0, free_space},
-      {"extremes/engine/moved-5e5", quantity, fresnel, "dB", 0.05, "the law's own 0.02 dB; doubles keep 6e-11 m", 0,
+      {"extremes/engine/moved-5e5", quantity, fresnel, "dB", 0.02, "the law's own 0.01 dB; doubles keep 6e-11 m", 0,
        [] { return moved_far(5e5); }},
-      {"extremes/engine/moved-5e6", quantity, fresnel, "dB", 0.05, "the law's own 0.02 dB; doubles keep 1e-9 m", 0,
+      {"extremes/engine/moved-5e6", quantity, fresnel, "dB", 0.02, "the law's own 0.01 dB; doubles keep 1e-9 m", 0,
        [] { return moved_far(5e6); }},
       {"extremes/engine/carriers",
        "engine behind a black half-plane, 20 Hz to 300 GHz, 100 m on either side: largest |error of level|", fresnel,

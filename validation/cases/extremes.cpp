@@ -311,11 +311,10 @@ Cases extreme_kernel_cases() {
                    "UTD, wedges of 0 to 350 degrees at faces and boundaries: numbers out of all bounds",
                    "no more than the images there are", "1", 0, "no NaN, no infinity", 0,
                    [] { return wedges_of_all_angles(false); }});
-  cases.push_back({"extremes/wedges/exact",
-                   "UTD, wedges of 0 to 350 degrees at faces and boundaries: largest |error| times k rho",
-                   "exact wedge", "1", 0.5,
-                   "what UTD leaves out next to its boundaries, of order 1/(k rho) and more at inner corners", 0,
-                   [] { return wedges_of_all_angles(true); }});
+  cases.push_back(
+      {"extremes/wedges/exact", "UTD, wedges of 0 to 350 degrees at faces and boundaries: largest |error| times k rho",
+       "exact wedge", "1", 0.2, "what UTD leaves out next to its boundaries, of order 1/(k rho): 0.1 measured", 0,
+       [] { return wedges_of_all_angles(true); }});
   cases.push_back({"extremes/wedges/slots",
                    "UTD in slots of 9 to 0.1 degrees (wedges up to 359.9): largest |error| over 2/n", "0 and (2/n) J0",
                    "1", 1e-12, "exact for n = 1/m: rounding of up to 1800 images", 0, slots});
