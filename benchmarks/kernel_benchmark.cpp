@@ -8,11 +8,14 @@
 #include <stdexcept>
 #include <vector>
 
+#include "benchmarks/libcerf_faddeeva.h"
 #include "core/special_functions.h"
 #include "propagation/fermat.h"
 #include "propagation/field.h"
 #include "propagation/laws/free_space_diffraction.h"
 #include "propagation/laws/reflection.h"
+#include "propagation/laws/triangle_transform.h"
+#include "propagation/laws/utd.h"
 #include "propagation/plan.h"
 #include "propagation/tracer.h"
 #include "scenes/canonical.h"
@@ -48,6 +51,154 @@ void edge_wave_kernel(benchmark::State& state) {
   }
 }
 BENCHMARK(edge_wave_kernel)->Name("edge_wave");
+
+// ---- special functions and wedges, one at a time and in spans: nanoseconds per value
+// ---------------------------------
+
+/// Calls `all` on whole spans; items per second = values per second.
+template <class All>
+void in_spans(benchmark::State& state, const All& all) {
+  for (auto _ : state) {
+    all();
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(std::int64_t(state.iterations()) * std::int64_t(table_size));
+}
+
+/// |z| as for faddeeva_on_ray, along its ray and elsewhere in the upper half-plane.
+std::array<std::complex<double>, table_size> spread_plane(bool on_ray) {
+  std::array<std::complex<double>, table_size> z;
+  const auto t = spread_arguments();
+  for (std::size_t i = 0; i < table_size; ++i)
+    z[i] = std::polar(t[i],
+                      on_ray ? 3 * std::numbers::pi / 4 : std::numbers::pi * double(i * 59 % table_size) / table_size);
+  return z;
+}
+
+template <class Function>
+void plane_kernel(benchmark::State& state, const Function& function, bool on_ray) {
+  const auto z = spread_plane(on_ray);
+  std::size_t i = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(function(z[i++ % table_size]));
+}
+
+void faddeeva_plane(benchmark::State& state) {
+  plane_kernel(
+      state, [](std::complex<double> z) { return faddeeva(z); }, false);
+}
+BENCHMARK(faddeeva_plane)->Name("faddeeva/plane");
+
+void faddeeva_ray_by_plane(benchmark::State& state) {
+  plane_kernel(
+      state, [](std::complex<double> z) { return faddeeva(z); }, true);
+}
+BENCHMARK(faddeeva_ray_by_plane)->Name("faddeeva/ray");
+
+void faddeeva_of_libcerf(benchmark::State& state) { plane_kernel(state, libcerf_faddeeva, false); }
+BENCHMARK(faddeeva_of_libcerf)->Name("libcerf w_of_z/plane");
+
+void faddeeva_of_libcerf_on_ray(benchmark::State& state) { plane_kernel(state, libcerf_faddeeva, true); }
+BENCHMARK(faddeeva_of_libcerf_on_ray)->Name("libcerf w_of_z/ray");
+
+void faddeeva_on_ray_span(benchmark::State& state) {
+  const auto t = spread_arguments();
+  std::vector<std::complex<double>> w(table_size);
+  in_spans(state, [&] { faddeeva_on_ray(t, w); });
+}
+BENCHMARK(faddeeva_on_ray_span)->Name("faddeeva_on_ray/span");
+
+void transition_kernel(benchmark::State& state) {
+  const auto x = spread_arguments();
+  std::size_t i = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(transition_function(x[i++ % table_size]));
+}
+BENCHMARK(transition_kernel)->Name("transition_function");
+
+void transition_span(benchmark::State& state) {
+  const auto x = spread_arguments();
+  std::vector<std::complex<double>> f(table_size);
+  in_spans(state, [&] { transition_function(x, f); });
+}
+BENCHMARK(transition_span)->Name("transition_function/span");
+
+/// Directions about a wedge of 270° at L = 1 … 1000 m.
+struct Directions {
+  std::vector<double> phi_in, phi, sin_beta, distance, epsilon;
+  Directions() {
+    for (std::size_t i = 0; i < table_size; ++i) {
+      phi_in.push_back(4.7 * double(i * 37 % table_size) / table_size);
+      phi.push_back(4.7 * double(i * 91 % table_size) / table_size);
+      sin_beta.push_back(0.2 + 0.8 * double(i * 53 % table_size) / table_size);
+      distance.push_back(std::pow(1000.0, double(i) / table_size));
+      epsilon.push_back(phi[i] - phi_in[i]);
+    }
+  }
+};
+
+void edge_wave_span(benchmark::State& state) {
+  const Directions d;
+  std::vector<std::complex<double>> waves(table_size);
+  in_spans(state, [&] { edge_waves(d.distance, wavelength, d.sin_beta, d.epsilon, waves); });
+}
+BENCHMARK(edge_wave_span)->Name("fresnel_parameter + edge_wave/span");
+
+void edge_wave_with_parameter(benchmark::State& state) {
+  const Directions d;
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const std::size_t n = i++ % table_size;
+    benchmark::DoNotOptimize(
+        edge_wave(fresnel_parameter(d.distance[n], wavelength, d.sin_beta[n], d.epsilon[n]), d.epsilon[n] >= 0));
+  }
+}
+BENCHMARK(edge_wave_with_parameter)->Name("fresnel_parameter + edge_wave");
+
+void utd_kernel(benchmark::State& state) {
+  const Directions d;
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const std::size_t n = i++ % table_size;
+    const double l = d.distance[n];
+    benchmark::DoNotOptimize(utd_coefficients(1.5 * std::numbers::pi, d.phi_in[n], d.phi[n], d.sin_beta[n],
+                                              2 * std::numbers::pi / wavelength, {l, l, l, l}));
+  }
+}
+BENCHMARK(utd_kernel)->Name("utd_coefficients");
+
+void utd_span(benchmark::State& state) {
+  const Directions d;
+  std::vector<WedgeTerms> terms(table_size);
+  in_spans(state, [&] {
+    utd_coefficients(1.5 * std::numbers::pi, d.phi_in, d.phi, d.sin_beta, 2 * std::numbers::pi / wavelength, d.distance,
+                     terms);
+  });
+}
+BENCHMARK(utd_span)->Name("utd_coefficients/span");
+
+/// A triangle of 1 m seen at κ = 0.1 … 100 rad/m (0), or at 0.1 … 1 (1: all by series).
+std::vector<PlanePoint> spread_kappa(bool close) {
+  std::vector<PlanePoint> kappa;
+  for (std::size_t i = 0; i < table_size; ++i) {
+    const double size = 0.1 * std::pow(close ? 10.0 : 1000.0, double(i * 97 % table_size) / table_size);
+    kappa.push_back({size * std::cos(double(i)), size * std::sin(double(i))});
+  }
+  return kappa;
+}
+const AmplitudeTriangle triangle{{{{0, 0}, {1, 0.1}, {0.4, 0.9}}}, {{{1, 0}, {0.8, 0.3}, {0.5, -0.2}}}};
+
+void triangle_kernel(benchmark::State& state) {
+  const auto kappa = spread_kappa(state.range(0) != 0);
+  std::size_t i = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(triangle_transform(triangle, kappa[i++ % table_size]));
+}
+BENCHMARK(triangle_kernel)->Name("triangle_transform")->ArgName("close")->Arg(0)->Arg(1);
+
+void triangle_span(benchmark::State& state) {
+  const auto kappa = spread_kappa(state.range(0) != 0);
+  std::vector<std::complex<double>> transform(table_size);
+  in_spans(state, [&] { triangle_transform(triangle, kappa, transform); });
+}
+BENCHMARK(triangle_span)->Name("triangle_transform/span")->ArgName("close")->Arg(0)->Arg(1);
 
 void slab_reflection_kernel(benchmark::State& state) {
   const double wavenumber = 2 * std::numbers::pi / wavelength;

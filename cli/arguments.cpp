@@ -14,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> verbs = {"coverage", "profile", "scene"};
-const std::vector<std::string> later_verbs = {"compare", "tradeoff", "validate", "eval", "report"};
+const std::vector<std::string> verbs = {"coverage", "profile", "scene", "eval", "validate"};
+const std::vector<std::string> later_verbs = {"compare", "tradeoff", "report"};
 
 constexpr const char* examples = R"(Examples:
   grimaldi coverage city.toml
@@ -24,9 +24,13 @@ constexpr const char* examples = R"(Examples:
   grimaldi profile city.toml --rx 40,-60,1.5 --rx=-8,21,1.5
   grimaldi scene city.xml --json
   grimaldi scene street-canyon --set scene.parameters.width=30
+  grimaldi eval --list
+  grimaldi eval utd --in rows.csv --out results.csv
+  grimaldi validate
+  grimaldi validate square extremes --overwrite
 
 Numbers take units: 3.5GHz, 500Hz, 30dBm, 5m, 550nm; a bare number is SI.
-Exit codes: 0 done, 1 bad input or interrupted, 2 a fault of the program.)";
+Exit codes: 0 done, 1 bad input or interrupted, 2 a fault of the program, 3 a validation missed its tolerance.)";
 
 // A direct option and the key of the scenario that it sets.
 struct DirectOption {
@@ -117,6 +121,15 @@ void take_sets(const std::vector<std::string>& sets, Arguments& arguments, Diagn
   }
 }
 
+void take_threads(const std::string& text, Arguments& arguments, Diagnostics& diagnostics) {
+  const char* end = text.data() + text.size();
+  const auto [rest, fault] = std::from_chars(text.data(), end, arguments.threads);
+  // More threads than this only cost memory on any machine of today.
+  if (fault != std::errc() || rest != end || arguments.threads > 1024)
+    diagnostics.error("", 0, "--threads " + text, "out of range", "a whole number of threads 0 … 1024 is needed",
+                      "0 takes all processors");
+}
+
 void take_run_options(const CLI::App& app, const RunOptions& run, Arguments& arguments, Diagnostics& diagnostics) {
   auto& options = arguments.options;
   const auto given = [&](const char* flag) { return app.get_option(flag)->count() > 0; };
@@ -140,14 +153,7 @@ void take_run_options(const CLI::App& app, const RunOptions& run, Arguments& arg
   take_sets(run.sets, arguments, diagnostics);
   arguments.output = run.output;
   if (given("-o") && run.output.empty()) diagnostics.error("", 0, "-o", "an empty name", "a folder is needed");
-  if (given("--threads")) {
-    const char* end = run.threads.data() + run.threads.size();
-    const auto [rest, fault] = std::from_chars(run.threads.data(), end, arguments.threads);
-    // More threads than this only cost memory on any machine of today.
-    if (fault != std::errc() || rest != end || arguments.threads > 1024)
-      diagnostics.error("", 0, "--threads " + run.threads, "out of range",
-                        "a whole number of threads 0 … 1024 is needed", "0 takes all processors");
-  }
+  if (given("--threads")) take_threads(run.threads, arguments, diagnostics);
 }
 
 void refuse_extras(const CLI::App& app, const Arguments& arguments, Diagnostics& diagnostics) {
@@ -211,6 +217,31 @@ Arguments parse_arguments(int argc, const char* const* argv, Diagnostics& diagno
   scene.add_flag("--json", arguments.json, "print JSON, nothing else");
   scene.add_flag("--quiet", arguments.quiet, "no warnings");
 
+  CLI::App& eval = *app.add_subcommand("eval", "one kernel over the rows of a CSV file");
+  eval.allow_extras();
+  eval.set_help_flag();  // a function has a help of its own
+  eval.add_option("function", arguments.input, "which one")->type_name("FUNCTION");
+  add_text(eval, "--in", arguments.rows_in, "ROWS.csv", "the rows to read; - (default) is stdin");
+  add_text(eval, "--out", arguments.rows_out, "ROWS.csv",
+           "the same rows with the results; - (default) is stdout; replaced if it is there");
+  eval.add_flag("--list", arguments.list, "name the functions");
+  eval.add_flag("--quiet", arguments.quiet, "no warnings");
+  eval.add_flag("-h,--help", arguments.help, "what the function reads and gives");
+
+  CLI::App& validate = *app.add_subcommand("validate", "how far the program is from the truth, case by case");
+  validate.allow_extras();
+  validate.add_option("case", arguments.cases, "cases by name, part of a name, or suite (default: all)")
+      ->type_name("CASE");
+  std::string validate_output, validate_threads;
+  validate.add_flag("--list", arguments.list, "name the cases");
+  add_text(validate, "-o,--output", validate_output, "DIR", "folder of the results (default: validate.out)");
+  add_text(validate, "--threads", validate_threads, "N", "0 (default) = all processors");
+  validate.add_flag("--overwrite", arguments.overwrite, "replace a result that is already there");
+  validate.add_flag("--quiet", arguments.quiet, "print nothing but errors");
+  validate.add_flag("--json", arguments.json, "print validate.json, nothing else");
+  validate.add_flag("--progress", arguments.progress, "show progress also where stderr is no terminal");
+  validate.footer("Writes DIR/validate.json, DIR/report.html and the figures. Exit code 3 if a case misses.");
+
   if (argc < 2) {
     arguments.print = app.help();
     arguments.exit_code = 1;
@@ -244,6 +275,22 @@ Arguments parse_arguments(int argc, const char* const* argv, Diagnostics& diagno
     if (arguments.input.empty())
       diagnostics.error("", 0, "scene", "no scene given", "",
                         fmt::format("name a file, or one of {}", fmt::join(canonical_names(), ", ")));
+  }
+  if (eval.parsed()) {
+    arguments.verb = Verb::eval;
+    refuse_extras(eval, arguments, diagnostics);
+    if (arguments.help && arguments.input.empty()) arguments.print = eval.help();
+    for (const auto& [flag, file] : {std::pair{"--in", &arguments.rows_in}, std::pair{"--out", &arguments.rows_out}})
+      if (file->empty())
+        diagnostics.error("", 0, flag, "an empty name", "a CSV file is needed", "- is stdin or stdout");
+  }
+  if (validate.parsed()) {
+    arguments.verb = Verb::validate;
+    arguments.output = validate_output;
+    if (validate.get_option("-o")->count() > 0 && validate_output.empty())
+      diagnostics.error("", 0, "-o", "an empty name", "a folder is needed");
+    if (validate.get_option("--threads")->count() > 0) take_threads(validate_threads, arguments, diagnostics);
+    refuse_extras(validate, arguments, diagnostics);
   }
   for (const auto& extra : app.remaining()) diagnostics.error("", 0, extra, "one argument too many");
   return arguments;

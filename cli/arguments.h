@@ -11,16 +11,20 @@
 
 namespace grimaldi {
 
-enum class Verb { none, coverage, profile, scene };
+enum class Verb { none, coverage, profile, scene, eval, validate };
 
 struct Arguments {
   Verb verb = Verb::none;
-  std::string input;                ///< the scenario; for `scene` a file or the name of a built-in scene; may be empty
+  std::string input;  ///< the scenario; for `scene` a file or the name of a built-in scene; for `eval` the
+                      ///< function; may be empty
   std::vector<PlanOption> options;  ///< direct options first, then --set, each in the order of the command line
   std::filesystem::path output;     ///< -o; empty = the default
   unsigned threads = 0;             ///< 0 = all processors
   bool overwrite = false, quiet = false, json = false, progress = false;
-  std::optional<std::string> print;  ///< help or version: print this and end with `exit_code`
+  std::string rows_in = "-", rows_out = "-";  ///< of `eval`: files, - is stdin or stdout
+  bool list = false, help = false;            ///< of `eval`: the functions, or what one of them is
+  std::vector<std::string> cases;             ///< of `validate`, whose cases `list` lists; empty: all
+  std::optional<std::string> print;           ///< help or version: print this and end with `exit_code`
   int exit_code = 0;
 };
 

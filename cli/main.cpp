@@ -1,4 +1,4 @@
-// The program: verb → function; exit 0 done, 1 bad input, 2 a fault of ours.
+// The program: verb → function; exit 0 done, 1 bad input, 2 a fault of ours, 3 a validation missed.
 
 #include <fmt/format.h>
 
@@ -8,8 +8,10 @@
 #include <new>
 
 #include "cli/arguments.h"
+#include "cli/eval_verb.h"
 #include "cli/run_verb.h"
 #include "cli/scene_verb.h"
+#include "cli/validate_verb.h"
 
 namespace {
 
@@ -22,6 +24,8 @@ int run(int argc, char** argv, std::chrono::steady_clock::time_point start) {
     fmt::print("{}", *arguments.print);
     return arguments.exit_code;
   }
+  if (arguments.verb == Verb::eval) return eval_verb(arguments);
+  if (arguments.verb == Verb::validate) return validate_verb(arguments);
   return arguments.verb == Verb::scene ? scene_verb(arguments) : run_verb(arguments, start);
 }
 

@@ -9,8 +9,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* files[] = {"result.h5", "coverage.png", "profiles.png", "summary.json"};
-
 // The folder itself if it is there, else the nearest one above it.
 fs::path nearest_existing(fs::path folder) {
   std::error_code fault;
@@ -39,12 +37,12 @@ void OutputFolder::check(bool overwrite, Diagnostics& diagnostics) const {
                       "choose another folder with -o");
     return;
   }
-  for (const char* file_name : files)
+  for (const std::string& file_name : files_)
     if (fs::is_directory(file(file_name), fault))
       diagnostics.error(file(file_name).string(), 0, "-o", "cannot be written", "a folder of that name is there",
                         "choose another folder with -o");
-  if (!overwrite && fs::exists(file("result.h5"), fault))
-    diagnostics.error(file("result.h5").string(), 0, "-o", "a result is already there", "it would be lost",
+  if (!overwrite && fs::exists(file(files_.front()), fault))
+    diagnostics.error(file(files_.front()).string(), 0, "-o", "a result is already there", "it would be lost",
                       "choose another folder with -o, or replace it with --overwrite");
 }
 
@@ -72,7 +70,7 @@ void OutputFolder::remove_if_empty() {
 
 void OutputFolder::remove_stale(const std::vector<std::string>& written) const {
   std::error_code fault;  // a file that cannot be removed does no harm
-  for (const char* name : files)
+  for (const std::string& name : files_)
     if (std::find(written.begin(), written.end(), name) == written.end()) fs::remove(file(name), fault);
 }
 

@@ -14,10 +14,13 @@ std::filesystem::path default_output_folder(const std::filesystem::path& scenari
 
 class OutputFolder {
  public:
-  explicit OutputFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  /// `files`: what a result may consist of; the first one is in every result.
+  explicit OutputFolder(std::filesystem::path folder,
+                        std::vector<std::string> files = {"result.h5", "coverage.png", "profiles.png", "summary.json"})
+      : folder_(std::move(folder)), files_(std::move(files)) {}
 
   /// Errors to `diagnostics`, with nothing touched: the path or one above it is no folder, it may not be written, it
-  /// holds a result.h5 and `overwrite` is false, a folder lies where a file is to be.
+  /// holds the first file of a result and `overwrite` is false, a folder lies where a file is to be.
   void check(bool overwrite, Diagnostics& diagnostics) const;
   /// Makes the folder and those above it. Throws InputErrors if that fails.
   void create();
@@ -31,6 +34,7 @@ class OutputFolder {
 
  private:
   std::filesystem::path folder_;
+  std::vector<std::string> files_;
   std::vector<std::filesystem::path> created_;  // the outermost first
 };
 

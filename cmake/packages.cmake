@@ -19,4 +19,5 @@ if(GRIMALDI_TESTS)
 endif()
 if(GRIMALDI_BENCHMARKS)
   find_package(benchmark REQUIRED)
+  pkg_check_modules(libcerf REQUIRED IMPORTED_TARGET libcerf) # an opponent of ours
 endif()

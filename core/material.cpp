@@ -10,38 +10,13 @@
 #include <span>
 
 #include "core/constants.h"
+#include "core/p2040.h"
 #include "core/quantity.h"
 
 namespace grimaldi {
 namespace {
 
 // ---- the built-in table ---------------------------------------------------------------------------------------------
-
-struct RadioRow {
-  std::string_view name;
-  PermittivityRange range;  // a, b, c, d, from, to in GHz
-};
-
-// ITU-R P.2040-3 (08/2023), Table 3.
-constexpr RadioRow p2040_3[] = {
-    {"vacuum", {1, 0, 0, 0, 0.001, 100}},
-    {"concrete", {5.24, 0, 0.0462, 0.7822, 1, 100}},
-    {"brick", {3.91, 0, 0.0238, 0.16, 1, 40}},
-    {"plasterboard", {2.73, 0, 0.0085, 0.9395, 1, 100}},
-    {"wood", {1.99, 0, 0.0047, 1.0718, 0.001, 100}},
-    {"glass", {6.31, 0, 0.0036, 1.3394, 0.1, 100}},
-    {"glass", {5.79, 0, 0.0004, 1.658, 220, 450}},
-    {"ceiling_board", {1.48, 0, 0.0011, 1.0750, 1, 100}},
-    {"ceiling_board", {1.52, 0, 0.0029, 1.029, 220, 450}},
-    {"chipboard", {2.58, 0, 0.0217, 0.78, 1, 100}},
-    {"plywood", {2.71, 0, 0.33, 0, 1, 40}},
-    {"marble", {7.074, 0, 0.0055, 0.9262, 1, 60}},
-    {"floorboard", {3.66, 0, 0.0044, 1.3515, 50, 100}},
-    {"metal", {1, 0, 1e7, 0, 1, 100}},
-    {"very_dry_ground", {3, 0, 0.00015, 2.52, 1, 10}},
-    {"medium_dry_ground", {15, -0.1, 0.035, 1.63, 1, 10}},
-    {"wet_ground", {30, -0.4, 0.15, 1.30, 1, 10}},
-};
 
 struct AbsorptionRow {
   std::string_view name;
@@ -66,12 +41,7 @@ constexpr AbsorptionRow vorlaender[] = {
 };
 
 std::map<std::string, Material> make_built_in_materials() {
-  std::map<std::string, Material> table;
-  for (const RadioRow& row : p2040_3) {
-    Material& material = table[std::string(row.name)];
-    material.name = row.name;
-    material.radio.push_back(row.range);
-  }
+  std::map<std::string, Material> table = p2040_materials(3);
   const std::vector<double> octaves = octave_bands(63, 8000);
   for (const AbsorptionRow& row : vorlaender) {
     Spectrum spectrum{octaves, {row.octaves.front()}};

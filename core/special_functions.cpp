@@ -93,6 +93,12 @@ Complex ray_asymptotic_factor(double t) {
   return {re, im};
 }
 
+Complex ray_by_series(double t) {
+  const Complex factor = ray_asymptotic_factor(t);
+  const double scale = 1 / (std::sqrt(2 * pi) * t);  // 1/(√π e^{jπ/4} t) = (1 − j) scale
+  return {scale * (factor.real() + factor.imag()), scale * (factor.imag() - factor.real())};
+}
+
 // ---- w(z) in the closed first quadrant ------------------------------------------------------------------------------
 //
 // Trapezium or midpoint rule of step h for w(z) = (jz/π) ∫ e^{−t²}/(z²−t²) dt, with the residue of the pole at t = z
@@ -172,10 +178,17 @@ Complex faddeeva(Complex z) {
 
 Complex faddeeva_on_ray(double t) {
   GRIMALDI_EXPECT(t >= 0);
-  if (t < table_end) return ray_by_table(t);
-  const Complex factor = ray_asymptotic_factor(t);
-  const double scale = 1 / (std::sqrt(2 * pi) * t);  // 1/(√π e^{jπ/4} t) = (1 − j) scale
-  return {scale * (factor.real() + factor.imag()), scale * (factor.imag() - factor.real())};
+  return t < table_end ? ray_by_table(t) : ray_by_series(t);
+}
+
+void faddeeva_on_ray(std::span<const double> t, std::span<Complex> w) {
+  GRIMALDI_EXPECT(t.size() == w.size());
+  for (std::size_t i = 0; i < t.size(); ++i) w[i] = t[i] < table_end ? ray_by_table(t[i]) : ray_by_series(t[i]);
+}
+
+void transition_function(std::span<const double> x, std::span<Complex> f) {
+  GRIMALDI_EXPECT(x.size() == f.size());
+  for (std::size_t i = 0; i < x.size(); ++i) f[i] = transition_function(x[i]);
 }
 
 Complex transition_function(double x) {

@@ -2,6 +2,7 @@
 // The special functions of diffraction theory, each with the form that keeps its digits.
 
 #include <complex>
+#include <span>
 
 namespace grimaldi {
 
@@ -21,10 +22,16 @@ std::complex<double> faddeeva(std::complex<double> z);
 /// Error: ≤ 1e-14 of |w| on 0 … 1e8 and beyond (held by SpecialFunctions.Ray*; 5e-16 measured at 3516 points).
 std::complex<double> faddeeva_on_ray(double t);
 
+/// The same for every t of a span, to the same bits, several at once. Spans of one length.
+void faddeeva_on_ray(std::span<const double> t, std::span<std::complex<double>> w);
+
 /// UTD transition function F(x) = 2j√x e^{jx} ∫_{√x}^∞ e^{−ju²} du, exp(+jωt).
 /// Source: Kouyoumjian & Pathak, Proc. IEEE 62 (1974), equation (26).   Inputs: x ≥ 0.   Valid: every x ≥ 0; F(∞) = 1.
 /// Error: ≤ 1e-14 relative on 0 … 1e16 (held by SpecialFunctions.TransitionFunction*).
 std::complex<double> transition_function(double x);
+
+/// The same for every x of a span, to the same bits, several at once. Spans of one length.
+void transition_function(std::span<const double> x, std::span<std::complex<double>> f);
 
 /// Field behind a straight black edge over the free field, as a function of the Fresnel-Kirchhoff parameter v:
 /// E(v) = (1+j)/2 ∫_v^∞ exp(−jπu²/2) du. E(0) = 1/2, E(−∞) = 1, E(+∞) = 0; conjugate of ITU-R P.526's exp(−iωt) form.

@@ -1,10 +1,12 @@
 #include "propagation/laws/free_space_diffraction.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/constants.h"
 #include "core/contract.h"
+#include "core/sine_cosine.h"
 #include "core/special_functions.h"
 
 namespace grimaldi {
@@ -17,6 +19,25 @@ double fresnel_parameter(double effective_distance, double wavelength, double si
 
 std::complex<double> edge_wave(double v, bool shadow) {
   return (shadow ? 0.5 : -0.5) * faddeeva_on_ray(std::sqrt(pi / 2) * v);
+}
+
+void edge_waves(std::span<const double> effective_distance, double wavelength, std::span<const double> sin_beta,
+                std::span<const double> epsilon, std::span<std::complex<double>> waves) {
+  GRIMALDI_EXPECT(effective_distance.size() == waves.size() && sin_beta.size() == waves.size() &&
+                  epsilon.size() == waves.size() && wavelength > 0);
+  constexpr std::size_t block = 64;
+  std::array<double, block> argument;
+  for (std::size_t begin = 0; begin < waves.size(); begin += block) {
+    const std::size_t count = std::min(block, waves.size() - begin);
+    for (std::size_t i = 0; i < count; ++i) {
+      // √(π/2) v, v = 2 √(2L/λ) sin β sin(ε/2).
+      const double turn = std::min(std::fabs(epsilon[begin + i]), pi);
+      argument[i] = 2 * std::sqrt(pi * effective_distance[begin + i] / wavelength) * sin_beta[begin + i] *
+                    sine_cosine(0.5 * turn).sine;
+    }
+    faddeeva_on_ray(std::span(argument).first(count), waves.subspan(begin, count));
+    for (std::size_t i = 0; i < count; ++i) waves[begin + i] *= epsilon[begin + i] >= 0 ? 0.5 : -0.5;
+  }
 }
 
 std::complex<double> edge_end_wave(double detour, double wavelength, double wavenumber, bool inside) {

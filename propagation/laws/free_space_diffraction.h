@@ -7,6 +7,7 @@
 // incident wave and its images in the two faces. For the half-plane this is Sommerfeld's exact solution.
 
 #include <complex>
+#include <span>
 
 namespace grimaldi {
 
@@ -21,6 +22,11 @@ double fresnel_parameter(double effective_distance, double wavelength, double si
 /// Inputs: v ≥ 0, shadow = true for ε ≥ 0.   Returns: dimensionless, |U| ≤ ½; tends to ±1/(2π v)·√2 e^{…} for large v.
 /// Error: 1e-14 relative (that of faddeeva_on_ray).
 std::complex<double> edge_wave(double v, bool shadow);
+
+/// Edge waves of many directions at one wavelength, several at once: edge_wave(fresnel_parameter(L, λ, sin β, ε), ε ≥
+/// 0). Inputs: spans of one length, as the functions above. Error: that of edge_wave, and 2 ulp of v.
+void edge_waves(std::span<const double> effective_distance, double wavelength, std::span<const double> sin_beta,
+                std::span<const double> epsilon, std::span<std::complex<double>> waves);
 
 /// Weight of an end of the edge: UV = ∓½ w(e^{3jπ/4} √(π/2) v_V) e^{−jkδ}, v_V = 2√(δ/λ), − if the diffraction point
 /// lies inside that end. Inputs: detour δ ≥ 0 (m) of the path over the end against the path over the diffraction point,

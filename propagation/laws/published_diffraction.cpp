@@ -12,22 +12,18 @@ namespace {
 
 double sinc(double x) { return std::abs(x) < 1e-8 ? 1 : std::sin(x) / x; }
 
-/// g1(x) = (cos(x/2) − sinc(x/2))/x; nested series where the difference cancels, to 2e-16 for |x| < 2.
-double difference_over(double x) {
-  const double u = 0.5 * x, square = u * u;
-  if (std::abs(u) >= 1) return (std::cos(u) - sinc(u)) / x;
-  double nested = 1;
-  for (const double divisor : {304.0, 238.0, 180.0, 130.0, 88.0, 54.0, 28.0, 10.0})
-    nested = 1 - square / divisor * nested;
-  return -u / 6 * nested;
-}
-
 /// y/(x² + y²) without overflow or underflow.
 double over_square(double x, double y) {
   const double scale = std::max(std::abs(x), std::abs(y));
   if (scale == 0) return 0;
   const double a = x / scale, b = y / scale;
   return b / (a * a + b * b) / scale;
+}
+
+/// ζ = k(e·ξ, e m·ξ), S2.22.
+PlanePoint canonical_direction(double wavenumber, const PublishedEdge& edge, const PlanePoint& xi) {
+  const double ex = edge.end[0] - edge.start[0], ey = edge.end[1] - edge.start[1];
+  return {wavenumber * (ex * xi[0] + ey * xi[1]), wavenumber * (ey * xi[0] - ex * xi[1])};
 }
 
 /// Half the length of the silhouette that is taken, over sigma: three standard deviations of the amplitude.
@@ -37,20 +33,34 @@ constexpr double uniform_share = 1.0 / 7;
 
 }  // namespace
 
-double alpha1(double zeta_x, double zeta_y) { return over_square(zeta_x, zeta_y) * difference_over(zeta_x) / (2 * pi); }
+double edge_g1(double x) {
+  const double u = 0.5 * x, square = u * u;
+  if (std::abs(u) >= 1) return (std::cos(u) - sinc(u)) / x;
+  double nested = 1;
+  for (const double divisor : {304.0, 238.0, 180.0, 130.0, 88.0, 54.0, 28.0, 10.0})
+    nested = 1 - square / divisor * nested;
+  return -u / 6 * nested;
+}
 
-double alpha2(double zeta_x, double zeta_y) { return over_square(zeta_x, zeta_y) * sinc(0.5 * zeta_x) / (2 * pi); }
+double edge_g2(double x) { return sinc(0.5 * x); }
+
+double alpha1(double zeta_x, double zeta_y) { return over_square(zeta_x, zeta_y) * edge_g1(zeta_x) / (2 * pi); }
+
+double alpha2(double zeta_x, double zeta_y) { return over_square(zeta_x, zeta_y) * edge_g2(zeta_x) / (2 * pi); }
+
+std::complex<double> whole_edge_wave(double wavenumber, const PublishedEdge& edge, const PlanePoint& xi) {
+  const double ex = edge.end[0] - edge.start[0], ey = edge.end[1] - edge.start[1];
+  const PlanePoint zeta = canonical_direction(wavenumber, edge, xi);
+  const double middle = 0.5 * ((edge.start[0] + edge.end[0]) * xi[0] + (edge.start[1] + edge.end[1]) * xi[1]);
+  const std::complex<double> a = edge.start_amplitude, b = edge.end_amplitude, i{0, 1};
+  const std::complex<double> shape = (a - b) * alpha1(zeta[0], zeta[1]) + 0.5 * i * (a + b) * alpha2(zeta[0], zeta[1]);
+  return wavenumber * (ex * ex + ey * ey) * std::polar(1.0, -std::remainder(wavenumber * middle, 2 * pi)) * shape;
+}
 
 std::complex<double> published_edge_wave(double wavenumber, const PublishedEdge& edge, const PlanePoint& xi) {
-  const double ex = edge.end[0] - edge.start[0], ey = edge.end[1] - edge.start[1];
-  const double zeta_x = wavenumber * (ex * xi[0] + ey * xi[1]), zeta_y = wavenumber * (ey * xi[0] - ex * xi[1]);
-  const double middle = 0.5 * ((edge.start[0] + edge.end[0]) * xi[0] + (edge.start[1] + edge.end[1]) * xi[1]);
-  const double square = zeta_x * zeta_x + zeta_y * zeta_y;
-  const double without_lobe = std::sqrt(-std::expm1(-square / 6));
-  const std::complex<double> a = edge.start_amplitude, b = edge.end_amplitude, i{0, 1};
-  const std::complex<double> shape = (a - b) * alpha1(zeta_x, zeta_y) + 0.5 * i * (a + b) * alpha2(zeta_x, zeta_y);
-  return without_lobe * wavenumber * (ex * ex + ey * ey) *
-         std::polar(1.0, -std::remainder(wavenumber * middle, 2 * pi)) * shape;
+  const PlanePoint zeta = canonical_direction(wavenumber, edge, xi);
+  const double without_lobe = std::sqrt(-std::expm1(-(zeta[0] * zeta[0] + zeta[1] * zeta[1]) / 6));
+  return without_lobe * whole_edge_wave(wavenumber, edge, xi);
 }
 
 double published_edge_power(const PublishedEdge& edge) {

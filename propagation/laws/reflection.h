@@ -23,6 +23,23 @@ ReflectionCoefficients half_space_reflection(std::complex<double> permittivity, 
 ReflectionCoefficients slab_reflection(std::complex<double> permittivity, double thickness, double wavenumber,
                                        double cos_incidence);
 
+/// Transmission into a half-space: tangential E (TE) and E along its own ∥ direction (TM) behind the face over that of
+/// the incident wave. Formula: T_TE = 2 cos θ/(cos θ + q), T_TM = 2 √η cos θ/(η cos θ + q), q = √(η − sin²θ), ITU-R
+/// P.2040-3, equations (36a), (36b).
+/// Inputs: as half_space_reflection. Error: a few ulp.
+ReflectionCoefficients half_space_transmission(std::complex<double> permittivity, double cos_incidence);
+
+/// What a slab in air sends back and lets through; both over the incident wave at the entry, the latter at the point of
+/// the exit face straight opposite, the phase e^{−jq} through the slab included.
+struct SlabCoefficients {
+  ReflectionCoefficients reflection, transmission;
+};
+
+/// Formula: R as slab_reflection, T = (1 − R'²) e^{−jq}/(1 − R'² e^{−j2q}), ITU-R P.2040-3, equations (42) to (44).
+/// Inputs: as slab_reflection; infinite thickness lets nothing through. Error: 1e-13 absolute.
+SlabCoefficients slab_coefficients(std::complex<double> permittivity, double thickness, double wavenumber,
+                                   double cos_incidence);
+
 /// Pressure reflection factor of a locally reacting, angle-independent wall of absorption coefficient α: √(1 − α),
 /// phase 0. α in 0 … 1.
 double wall_reflection(double absorption);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/constants.h"
+#include "core/p2040.h"
 #include "tests/core/reference_rows.h"
 
 namespace grimaldi {
@@ -73,6 +74,71 @@ TEST(Material, PublishedPermittivities) {
     ++compared;
   }
   EXPECT_GE(compared, 6);
+}
+
+// Every version's table against the file, row by row, in the middle of the range; where ranges of a material overlap,
+// the row with the lowest lower end and then the lowest upper end is the one that counts.
+TEST(Material, VersionsOfP2040) {
+  const auto rows = reference_rows("radio/p2040_parameters.csv");
+  if (rows.empty()) GTEST_SKIP() << "needs ../shared/reference/radio/p2040_parameters.csv";
+  int compared = 0, hidden = 0;
+  for (const auto& row : rows) {
+    const auto number = [&](std::size_t i) { return std::stod(row[i]); };
+    const std::optional<int> version = p2040_version(row[1]);
+    ASSERT_TRUE(version) << row[1];
+    const Material& material = p2040_materials(*version).at(material_key(row[2]));
+    for (const double share : {0.0, 0.37, 1.0}) {
+      const double low = std::max(number(3), 1e-3), high = std::min(number(4), 1000.0);
+      const double f = low * std::pow(high / low, share);
+      const bool overruled = std::any_of(rows.begin(), rows.end(), [&](const auto& other) {
+        if (other[1] != row[1] || other[2] != row[2]) return false;
+        const double from = std::stod(other[3]), to = std::stod(other[4]);
+        return from <= f && f <= to && (from < number(3) || (from == number(3) && to < number(4)));
+      });
+      if (overruled) {
+        ++hidden;
+        continue;
+      }
+      Diagnostics diagnostics;
+      const auto here = relative_permittivity(material, f * 1e9, diagnostics);
+      EXPECT_TRUE(diagnostics.all().empty()) << row[0];
+      EXPECT_NEAR(here.real() / (number(5) * std::pow(f, number(6))), 1, 1e-14) << row[0];
+      EXPECT_NEAR(conductivity(here, f * 1e9), number(7) * std::pow(f, number(8)),
+                  1e-14 * number(7) * std::pow(f, number(8)))
+          << row[0];
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 200);
+  EXPECT_GT(hidden, 10);
+}
+
+TEST(Material, PublishedPermittivitiesOfAllVersions) {
+  const auto rows = reference_rows("radio/p2040_permittivity_published.csv");
+  if (rows.empty()) GTEST_SKIP() << "needs ../shared/reference/radio/p2040_permittivity_published.csv";
+  for (const auto& row : rows) {
+    const std::optional<int> version = p2040_version(row[1]);
+    ASSERT_TRUE(version) << row[1];
+    Diagnostics diagnostics;
+    const double f = 1e9 * std::stod(row[3]);
+    const auto& table = p2040_materials(*version);
+    ASSERT_TRUE(table.contains(material_key(row[2]))) << row[2];
+    const auto here = relative_permittivity(table.at(material_key(row[2])), f, diagnostics);
+    // Five digits are printed.
+    EXPECT_NEAR(here.real(), std::stod(row[4]), 5e-5 * std::stod(row[4])) << row[0];
+    EXPECT_NEAR(conductivity(here, f), std::stod(row[5]), 5e-5 * std::stod(row[5]) + 1e-12) << row[0];
+  }
+}
+
+TEST(Material, NamesOfVersions) {
+  EXPECT_EQ(p2040_version("P.2040-3"), 3);
+  EXPECT_EQ(p2040_version(" p2040-1 "), 1);
+  for (const char* name : {"", "P.2040", "P.2040-5", "P.2040-33", "P.676-3", "3"})
+    EXPECT_FALSE(p2040_version(name)) << name;
+  EXPECT_EQ(p2040_materials(2).at("glass").radio.size(), 2u);
+  // The table of a run is version 3.
+  for (const auto& [key, material] : p2040_materials(3))
+    EXPECT_EQ(material.radio.size(), built_in_materials().at(key).radio.size());
 }
 
 TEST(Material, LossesAreNegativeImaginary) {

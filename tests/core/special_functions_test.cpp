@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "core/constants.h"
 #include "tests/core/reference_rows.h"
@@ -172,6 +173,19 @@ TEST(SpecialFunctions, TransitionFunctionOfTheReference) {
   RecordProperty("worst_relative_error", std::to_string(worst * 1e16) + "e-16");
   EXPECT_LT(worst, bound);
   EXPECT_GT(rows.size(), 60u);
+}
+
+TEST(SpecialFunctions, SpansGiveTheSameBits) {
+  std::vector<double> t;
+  for (double x = 1e-9; x < 1e9; x *= 1.037) t.push_back(x);
+  t.insert(t.end(), {0.0, 11.99999, 12.0, 1e300, std::numeric_limits<double>::infinity()});
+  std::vector<Complex> w(t.size()), f(t.size());
+  faddeeva_on_ray(t, w);
+  transition_function(t, f);
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    EXPECT_EQ(w[i], faddeeva_on_ray(t[i])) << t[i];
+    EXPECT_EQ(f[i], transition_function(t[i])) << t[i];
+  }
 }
 
 TEST(SpecialFunctions, TransitionFunctionLimits) {

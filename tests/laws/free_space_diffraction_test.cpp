@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <complex>
+#include <vector>
 
 #include "core/constants.h"
 #include "core/special_functions.h"
@@ -141,6 +142,22 @@ TEST(FreeSpaceDiffraction, EndsOfAnEdge) {
     // The end's wave is the knife edge of the detour: v_V = 2√(δ/λ), kδ = πv²/2.
     const Complex knife = knife_edge(2 * std::sqrt(detour / wavelength));
     EXPECT_LT(std::abs(edge_end_wave(detour, wavelength, k, false) - knife), 1e-13) << detour;
+  }
+}
+
+// 2 ulp of v move the wave by as much of itself, at most.
+TEST(EdgeWave, ManyAtOnce) {
+  std::vector<double> distance, sine, turn;
+  for (int i = 0; i < 777; ++i) {
+    distance.push_back(0.01 * std::pow(1.02, i));
+    sine.push_back(0.05 + 0.95 * ((i * 37) % 100) / 100.0);
+    turn.push_back(i % 50 == 0 ? 0 : (i % 2 == 0 ? 1 : -1) * 4e-6 * std::pow(1.02, i));
+  }
+  std::vector<std::complex<double>> waves(turn.size());
+  edge_waves(distance, 0.1, sine, turn, waves);
+  for (std::size_t i = 0; i < turn.size(); ++i) {
+    const auto one = edge_wave(fresnel_parameter(distance[i], 0.1, sine[i], turn[i]), turn[i] >= 0);
+    EXPECT_LE(std::abs(waves[i] - one), 2e-15 * std::abs(one)) << i;
   }
 }
 

@@ -13,6 +13,7 @@
 #include "core/constants.h"
 #include "core/contract.h"
 #include "core/material.h"
+#include "core/p2040.h"
 #include "tests/core/reference_rows.h"
 
 namespace grimaldi {
@@ -64,6 +65,73 @@ TEST(Reflection, SlabAgainstReference) {
   }
   std::printf("slab: %d rows, largest error %.1e\n", compared, worst);
   EXPECT_GT(compared, 40);
+}
+
+// 1e-12, metal 1e-9, by the header of the file.
+TEST(Reflection, TransmissionIntoAHalfSpaceAgainstReference) {
+  const auto rows = reference_rows("radio/fresnel_coefficients.csv");
+  if (rows.empty()) GTEST_SKIP() << "needs ../shared/reference/radio/fresnel_coefficients.csv";
+  for (const auto& row : rows) {
+    const Complex eta(std::stod(row[4]), std::stod(row[5]));
+    const auto t = half_space_transmission(eta, cosine(std::stod(row[6])));
+    const double error = std::max(std::abs(t.te - Complex(std::stod(row[11]), std::stod(row[12]))),
+                                  std::abs(t.tm - Complex(std::stod(row[13]), std::stod(row[14]))));
+    EXPECT_LT(error, row[1] == "metal" ? 1e-9 : 1e-12) << row[0];
+  }
+}
+
+TEST(Reflection, WholeSlabAgainstReference) {
+  const auto rows = reference_rows("radio/slab_coefficients.csv");
+  if (rows.empty()) GTEST_SKIP() << "needs ../shared/reference/radio/slab_coefficients.csv";
+  double worst = 0;
+  for (const auto& row : rows) {
+    const auto number = [&](std::size_t i) { return std::stod(row[i]); };
+    Diagnostics diagnostics;
+    const double frequency = number(3) * 1e9;
+    const auto version = p2040_version(row[2]);
+    ASSERT_TRUE(version) << row[2];
+    const Complex eta =
+        relative_permittivity(p2040_materials(*version).at(material_key(row[1])), frequency, diagnostics);
+    const auto s = slab_coefficients(eta, number(4), 2 * pi * frequency / speed_of_light, cosine(number(5)));
+    const Complex here[] = {s.reflection.te, s.reflection.tm, s.transmission.te, s.transmission.tm};
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double error = std::abs(here[i] - Complex(number(6 + 2 * i), number(7 + 2 * i)));
+      EXPECT_LT(error, 1e-12) << row[0];
+      worst = std::max(worst, error);
+    }
+  }
+  std::printf("whole slab: %zu rows, largest error %.1e\n", rows.size(), worst);
+}
+
+// A lossless slab gives back all it takes; a lossy one less; without thickness or contrast it is not there; T + … of a
+// face: 1 + R_TE = T_TE (tangential E is continuous).
+TEST(Reflection, TransmissionTheorems) {
+  for (const double c : {1e-3, 0.3, 0.9, 1.0})
+    for (const double d : {0.0, 1e-9, 0.003, 0.2}) {
+      const auto lossless = slab_coefficients({4.5, 0}, d, 73, c), lossy = slab_coefficients({4.5, -0.3}, d, 73, c);
+      EXPECT_NEAR(std::norm(lossless.reflection.te) + std::norm(lossless.transmission.te), 1, 1e-12) << c << " " << d;
+      EXPECT_NEAR(std::norm(lossless.reflection.tm) + std::norm(lossless.transmission.tm), 1, 1e-12) << c << " " << d;
+      EXPECT_LE(std::norm(lossy.reflection.te) + std::norm(lossy.transmission.te), 1 + 1e-12);
+      EXPECT_LE(std::norm(lossy.reflection.tm) + std::norm(lossy.transmission.tm), 1 + 1e-12);
+      const auto only = slab_reflection({4.5, -0.3}, d, 73, c);
+      EXPECT_LT(std::abs(only.te - lossy.reflection.te), 1e-15);
+      EXPECT_LT(std::abs(only.tm - lossy.reflection.tm), 1e-15);
+      const auto r = half_space_reflection({4.5, -0.3}, c), t = half_space_transmission({4.5, -0.3}, c);
+      EXPECT_LT(std::abs(1.0 + r.te - t.te), 1e-15);
+      EXPECT_LT(std::abs((1.0 + r.tm) / std::sqrt(Complex(4.5, -0.3)) - t.tm), 1e-15);
+    }
+  // Grazing a film of a nanometre: the faces send all back, so it does too.
+  for (const double d : {1e-9, 1e-3, 1.0}) {
+    const auto grazing = slab_coefficients({5.24, -0.6}, d, 59, 0);
+    EXPECT_LT(std::abs(grazing.reflection.te + 1.0) + std::abs(grazing.reflection.tm + 1.0), 1e-15) << d;
+    EXPECT_EQ(grazing.transmission.te, Complex(0));
+  }
+  const auto none = slab_coefficients({4.5, -0.3}, 0, 73, 0.5), air = slab_coefficients({1, 0}, 0.2, 73, 0.5);
+  EXPECT_EQ(none.transmission.te, Complex(1));
+  EXPECT_EQ(none.reflection.tm, Complex(0));
+  EXPECT_LT(std::abs(air.transmission.te - std::polar(1.0, -73 * 0.2 * 0.5)), 1e-14);
+  EXPECT_EQ(slab_coefficients({4.5, -0.3}, infinite, 73, 0.5).transmission.te, Complex(0));
+  EXPECT_EQ(slab_coefficients({1, -1e8}, 1, 73, 0.5).transmission.tm, Complex(0));  // e^{−10⁵}
 }
 
 TEST(Reflection, BrewsterAngleAgainstReference) {

@@ -1,0 +1,230 @@
+#include "cli/report_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "cli/axes.h"
+#include "cli/theory_words.h"
+#include "cli/version.h"
+
+namespace grimaldi {
+namespace {
+
+constexpr const char* style = R"(
+:root{--ink:#1b2430;--soft:#5b6675;--line:#d9dee5;--paper:#fff;--wash:#f5f7fa;--good:#1a7f4b;--bad:#b3261e}
+*{box-sizing:border-box}
+body{font:16px/1.55 system-ui,"DejaVu Sans",sans-serif;color:var(--ink);background:var(--wash);margin:0}
+main{max-width:1180px;margin:0 auto;padding:2.2rem 1.6rem 4rem;background:var(--paper);min-height:100vh}
+h1{font-size:1.9rem;margin:0 0 .2rem}h2{font-size:1.3rem;margin:2.6rem 0 .6rem;border-bottom:2px solid var(--line);padding-bottom:.25rem}
+h3{font-size:1.02rem;margin:1.6rem 0 .3rem}p{max-width:78ch;margin:.5rem 0}
+.lead{color:var(--soft);margin:0 0 1.2rem}.verdict{display:inline-block;font-weight:600;padding:.3rem .9rem;border-radius:999px;color:#fff;background:var(--good)}
+.verdict.bad{background:var(--bad)}
+nav a{margin-right:1.1rem}a{color:#0b5cad;text-decoration:none}a:hover{text-decoration:underline}
+table{border-collapse:collapse;font-size:.86rem;width:100%}th{text-align:left;font-weight:600;color:var(--soft);border-bottom:2px solid var(--line);padding:.35rem .5rem;vertical-align:bottom}
+td{border-bottom:1px solid var(--line);padding:.28rem .5rem;vertical-align:top}
+td.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}td.v{white-space:nowrap;font-weight:600;color:var(--good)}
+tr.miss td{background:#fdecea}tr.miss td.v{color:var(--bad)}code{font:.92em ui-monospace,"DejaVu Sans Mono",monospace}
+.why{color:var(--soft);font-size:.84rem;max-width:none;margin:.15rem 0 .5rem}.note{color:var(--soft);font-size:.82rem}
+.heat td{text-align:center;border:1px solid #fff;font-variant-numeric:tabular-nums;padding:.3rem .2rem}.heat th{text-align:center;border-bottom:1px solid var(--line)}
+.heat td.h{text-align:left;color:var(--soft);background:none}.scroll{overflow-x:auto}
+figure{margin:1.6rem 0;padding:0}figure img{width:100%;height:auto;border:1px solid var(--line);border-radius:6px;background:#fff}
+figcaption{font-size:.88rem;color:var(--soft);max-width:90ch;margin-top:.3rem}
+)";
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : printable(text)) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+std::string base64(const std::string& bytes) {
+  static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned word = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      word = word << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k) out += i + k > bytes.size() ? '=' : digits[word >> (18 - 6 * k) & 63];
+  }
+  return out;
+}
+
+std::string suite_of(const CaseResult& result) {
+  return result.subject->name.substr(0, result.subject->name.find('/'));
+}
+
+std::string unit_of(const Case& subject) { return subject.unit == "1" ? "" : " " + subject.unit; }
+
+std::string bound_text(const Case& subject) {
+  const std::string unit = unit_of(subject);
+  return subject.at_least > 0 ? fmt::format("{:.2g} … {:.2g}{}", subject.at_least, subject.tolerance, unit)
+                              : fmt::format("≤ {:.2g}{}", subject.tolerance, unit);
+}
+
+/// The parts of apertures/square/D10/N0.1/fsd.
+struct ApertureKey {
+  std::string shape, size, number, theory;
+};
+std::optional<ApertureKey> aperture_key(const CaseResult& result) {
+  std::array<std::string, 5> part;
+  std::size_t from = 0;
+  const std::string& name = result.subject->name;
+  for (std::string& one : part) {
+    if (from > name.size()) return std::nullopt;
+    const std::size_t to = std::min(name.find('/', from), name.size());
+    one = name.substr(from, to - from);
+    from = to + 1;
+  }
+  if (part[0] != "apertures" || part[4].empty()) return std::nullopt;
+  return ApertureKey{part[1], part[2].substr(1), part[3].substr(1), part[4]};
+}
+
+/// Errors of the openings as coloured cells: shape by size, Fresnel number across, both theories.
+std::string aperture_heat(const std::vector<CaseResult>& results) {
+  std::vector<std::string> lines, numbers;
+  std::map<std::string, std::map<std::string, const CaseResult*>> cells;  // line → theory and number
+  for (const CaseResult& result : results) {
+    const auto key = aperture_key(result);
+    if (!key) continue;
+    const std::string line = key->shape + "</td><td class=h>" + key->size + " λ";
+    if (!cells.contains(line)) lines.push_back(line);
+    if (std::find(numbers.begin(), numbers.end(), key->number) == numbers.end()) numbers.push_back(key->number);
+    cells[line][key->theory + key->number] = &result;
+  }
+  if (lines.empty()) return {};
+  const std::array<std::pair<const char*, const char*>, 2> theories{
+      {{"fsd", "polygon form of the BSDF (far field)"}, {"edges", "connected edges (repaired BSDF = UTD)"}}};
+  std::string html = "<div class=scroll><table class=heat><tr><th rowspan=2>opening<th rowspan=2>size";
+  for (const auto& [key, name] : theories) html += fmt::format("<th colspan={}>{}, error in dB", numbers.size(), name);
+  html += "</tr><tr>";
+  for (std::size_t t = 0; t < theories.size(); ++t)
+    for (const std::string& number : numbers) html += "<th>N = " + number;
+  html += "</tr>\n";
+  for (const std::string& line : lines) {
+    html += "<tr><td class=h>" + line + "</td>";
+    for (const auto& [key, name] : theories)
+      for (const std::string& number : numbers) {
+        const auto found = cells[line].find(key + number);
+        if (found == cells[line].end()) {
+          html += "<td></td>";
+          continue;
+        }
+        // 0.03 dB and less green, 10 dB and more red, on the logarithm.
+        const double error = found->second->outcome.error;
+        const double hue =
+            130 * (1 - std::clamp(std::log10(std::max(error, 1e-3) / 0.03) / std::log10(300.0), 0.0, 1.0));
+        html += fmt::format("<td style=\"background:hsl({:.0f} 62% 82%)\">{}</td>", std::isfinite(error) ? hue : 0,
+                            error < 0.1 ? fmt::format("{:.2f}", error) : fmt::format("{:.1f}", error));
+      }
+    html += "</tr>\n";
+  }
+  return html + "</table></div>\n";
+}
+
+std::string figures_html(const std::vector<DrawnFigure>& figures, const std::string& suite) {
+  std::string html;
+  for (const DrawnFigure& figure : figures) {
+    if (figure.subject->name.rfind(suite + "/", 0) != 0) continue;
+    html += fmt::format(
+        "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
+        escaped(figure.figure->caption), base64(figure.png));
+  }
+  return html;
+}
+
+std::string table_html(const std::vector<CaseResult>& results, const std::string& suite) {
+  std::string html;
+  const Case* before = nullptr;
+  for (const CaseResult& result : results) {
+    if (suite_of(result) != suite) continue;
+    const Case& subject = *result.subject;
+    if (before == nullptr || before->quantity != subject.quantity || before->reference != subject.reference) {
+      if (before) html += "</table>\n";
+      html += fmt::format(
+          "<h3>{}</h3><p class=why>against: {}</p>\n<table><tr><th>case<th>error<th>allowed<th><th>time<th>"
+          "why this much</tr>\n",
+          escaped(subject.quantity), escaped(subject.reference));
+    }
+    const std::string digits = subject.unit == "1" && result.outcome.error < 0.1
+                                   ? fmt::format(" ({:.1f} digits)", correct_digits(result.outcome.error))
+                                   : "";
+    html += fmt::format(
+        "<tr{}><td><code>{}</code><td class=n>{:.3g}{}{}<td class=n>{}<td class=v>{}<td class=n>{:.2f} "
+        "s<td>{}{}</tr>\n",
+        result.passed ? "" : " class=miss", escaped(subject.name), result.outcome.error, unit_of(subject), digits,
+        bound_text(subject), result.passed ? "pass" : "MISS", result.seconds, escaped(subject.reason),
+        result.outcome.note.empty() ? "" : "<div class=note>" + escaped(result.outcome.note) + "</div>");
+    before = &subject;
+  }
+  return before ? html + "</table>\n" : html;
+}
+
+std::vector<std::string> suites_of(const std::vector<CaseResult>& results) {
+  std::vector<std::string> suites;
+  for (const CaseResult& result : results)
+    if (suites.empty() || suites.back() != suite_of(result)) suites.push_back(suite_of(result));
+  return suites;
+}
+
+}  // namespace
+
+std::string report_page(const std::vector<CaseResult>& results, const std::vector<DrawnFigure>& figures,
+                        double seconds) {
+  const auto passed = std::count_if(results.begin(), results.end(), [](const CaseResult& r) { return r.passed; });
+  const auto missed = std::ptrdiff_t(results.size()) - passed;
+  const std::vector<std::string> suites = suites_of(results);
+  std::string html = fmt::format(
+      "<!doctype html>\n<html lang=en><head><meta charset=utf-8><meta name=viewport "
+      "content=\"width=device-width,initial-scale=1\"><title>Grimaldi: validation</title><style>{}</style></head><body>"
+      "<main>\n<h1>How far from the truth</h1><p class=lead>Validation of grimaldi {}: {} cases in {:.1f} s</p>\n"
+      "<p><span class=\"verdict{}\">{}</span></p>\n<nav>",
+      style, escaped(program_version()), results.size(), seconds, missed > 0 ? " bad" : "",
+      missed > 0 ? fmt::format("{} of {} cases miss", missed, results.size())
+                 : fmt::format("all {} cases pass", results.size()));
+  for (const std::string& suite : suites) html += fmt::format("<a href=\"#{0}\">{0}</a>", escaped(suite));
+  html += "</nav>\n";
+  if (missed > 0) {
+    html += "<h2>What misses</h2>\n<table><tr><th>case<th>error<th>allowed<th>what was seen</tr>\n";
+    for (const CaseResult& result : results)
+      if (!result.passed)
+        html += fmt::format("<tr class=miss><td><code>{}</code><td class=n>{:.3g}{}<td class=n>{}<td>{}</tr>\n",
+                            escaped(result.subject->name), result.outcome.error, unit_of(*result.subject),
+                            bound_text(*result.subject), escaped(result.outcome.note));
+    html += "</table>\n";
+  }
+  html += "<h2 id=theories>Where each theory is good, and where it fails</h2>\n";
+  for (const std::string& sentence : theory_words(results)) html += "<p>" + escaped(sentence) + "</p>\n";
+  html += aperture_heat(results);
+  for (const std::string& suite : suites) {
+    html += fmt::format("<h2 id=\"{0}\">{0}</h2>\n", escaped(suite));
+    const std::string sentence = suite_words(suite);
+    if (!sentence.empty()) html += "<p>" + escaped(sentence) + "</p>\n";
+    html += figures_html(figures, suite) + table_html(results, suite);
+  }
+  return html + "</main></body></html>\n";
+}
+
+}  // namespace grimaldi

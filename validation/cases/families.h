@@ -1,0 +1,39 @@
+#pragma once
+// The families of cases, one source file for each.
+
+#include <vector>
+
+#include "validation/cases/case.h"
+
+namespace grimaldi {
+
+using Cases = std::vector<Case>;
+
+/// Openings (square, slit, triangle, star, ring of 32 edges, double slit, circle as polygon) at Fresnel numbers 10 …
+/// 0.01 and sizes of 3, 10 and 30 wavelengths: the polygon form of the free-space diffraction BSDF and the connected
+/// edges, each against the Rayleigh-Sommerfeld integral; some obstacles in their place by Babinet.
+Cases aperture_cases();
+/// Where each of the two theories holds: error over Fresnel number and length of edge, for squares.
+Cases validity_cases();
+/// Half-plane and wedges of 225°, 270° and 300°, soft and hard: UTD and the three black edges against the exact fields.
+Cases wedge_cases();
+/// One and two knife edges, and the half-plane as a mesh through the whole engine.
+Cases knife_edge_cases();
+/// Wedges in the engine against exact fields.
+Cases engine_wedge_cases();
+/// A wall with two edges of one top, in the engine, against boundary elements.
+Cases thick_screen_cases();
+/// What must be conserved.
+Cases energy_cases();
+/// The figures of the papers, in the printed and in the repaired form.
+Cases published_cases();
+/// Faces, slabs, gases, rain and air against closed forms and printed values.
+Cases material_cases();
+/// What may not change the engine's answer: how a mesh is cut, where the scene lies, what else is asked.
+Cases invariance_cases();
+/// Kernels at the ends of their domains.
+Cases extreme_kernel_cases();
+/// The engine at the ends of its domain.
+Cases extreme_engine_cases();
+
+}  // namespace grimaldi
