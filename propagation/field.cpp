@@ -205,7 +205,8 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
       }
       const auto term = [&](Boundary boundary) {
         const double epsilon = beyond_boundary(wedge, passage, boundary);
-        return edge_wave(fresnel_parameter(effective, wavelength, passage.sin_beta, epsilon), epsilon >= 0);
+        // On the boundary itself the way past the edge counts as free, as shadow rays have it.
+        return edge_wave(fresnel_parameter(effective, wavelength, passage.sin_beta, epsilon), epsilon > 0);
       };
       const Complex incident = term(Boundary::incident);
       Complex weight = end_weight(wedge, passage, wavelength, wavenumber);
