@@ -17,8 +17,8 @@ namespace {
 
 /// Patches next to either end of a blocked leg whose edges are tried.
 constexpr int blockers_seen = 4;
-/// Ways around whose path is asked for; of those that are free, and of those that something else blocks, as many are
-/// kept.
+/// Ways around whose path is asked for (a sixth of them for a third edge and more); of those that are free, and of
+/// those that something else blocks, as many are kept.
 constexpr int detours_tried = 48, free_detours = 12, blocked_detours = 12;
 
 /// A way around: the edge, where it is passed, and the length of the way over it.
@@ -96,7 +96,7 @@ class Scout {
     for (const WayAround& way : ways_) {
       if (free == free_detours) break;
       *inserted = edge_interaction(way.wedge);
-      if (++tried > detours_tried) break;
+      if (++tried > (edges > 2 ? detours_tried / 6 : detours_tried)) break;
       UnfoldedSequence unfolded(scene_, source_, child);
       along[edges_before] = way.along;
       if (edges > 1) unfolded.begin_at({along.data(), edges});
