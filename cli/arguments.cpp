@@ -45,7 +45,7 @@ constexpr DirectOption wave_options[] = {
     {"--frequency", "wave.frequency", "F[,F...]", "carriers or bands, e.g. 3.5GHz"},
     {"--rays", "budget.rays", "N", "rays per transmitter, over all passes (default 1e6)"},
     {"--depth", "propagation.depth", "N", "most interactions along a path (default 3)"},
-    {"--diffraction", "propagation.diffraction", "MODEL", "fsd (default) or fsd-published"},
+    {"--diffraction", "propagation.diffraction", "MODEL", "fsd (default), utd or fsd-published"},
     {"--mechanisms", "propagation.mechanisms", "M[,M...]", "of direct, reflection, diffraction (default: all)"},
     {"--seed", "budget.seed", "N", "seed of every random choice (default 1)"},
 };

@@ -7,6 +7,7 @@
 #include "propagation/antenna.h"
 #include "propagation/face_reflection.h"
 #include "propagation/laws/free_space_diffraction.h"
+#include "propagation/laws/utd.h"
 
 namespace grimaldi {
 namespace {
@@ -122,6 +123,34 @@ Dyadic reciprocal_image(const Plan& plan, std::uint32_t material, std::size_t ba
           0.5 * (there.pp + back.pp)};
 }
 
+/// The waves of an edge over the incident field continued: of the incident wave and of its images in the two faces.
+struct EdgeWaves {
+  Complex incident, face0, facen;
+};
+
+EdgeWaves edge_waves(DiffractionModel model, const Wedge& wedge, const EdgePassage& passage, double effective,
+                     double wavenumber) {
+  if (model == DiffractionModel::utd) {
+    const double phase = wavenumber * effective * passage.sin_beta * passage.sin_beta;
+    const auto waves = wedge_waves(wedge.exterior_angle, passage.phi_in, passage.phi_out, {phase, phase, phase, phase},
+                                   BoundarySide::lit);
+    const auto& t = waves.term;
+    // The two sides of a thin screen are one mirror.
+    return {t[0] + t[1], wedge.free_rim ? t[2] + t[3] : t[3], t[2]};
+  }
+  const auto wave = [&](Boundary boundary) {
+    const double epsilon = beyond_boundary(wedge, passage, boundary);
+    // On the boundary itself the way past the edge counts as free, as shadow rays have it.
+    return edge_wave(fresnel_parameter(effective, 2 * pi / wavenumber, passage.sin_beta, epsilon), epsilon > 0);
+  };
+  return {wave(Boundary::incident), wave(Boundary::face0), wave(Boundary::facen)};
+}
+
+/// True if the faces of an edge have waves of their own.
+bool faces_count(const Plan& plan) {
+  return plan.request.reflection || plan.request.diffraction_model == DiffractionModel::utd;
+}
+
 /// Bound on |U| of a straight edge: its value at the boundary, its asymptote beyond (|w| decreases and stays below
 /// √2/(π v)).
 double edge_wave_bound(double v) { return v < 0.45 ? 0.5 : 1 / (std::sqrt(2.0) * pi * v); }
@@ -144,8 +173,11 @@ double power_bound(const Scene& scene, const Plan& plan, const PathGeometry& geo
     for (const Boundary boundary : {Boundary::incident, Boundary::face0, Boundary::facen}) {
       sum += edge_wave_bound(
           fresnel_parameter(effective, wavelength, passage.sin_beta, beyond_boundary(wedge, passage, boundary)));
-      if (!plan.request.reflection) break;
+      if (!faces_count(plan)) break;
     }
+    // UTD has a second incident term, the one of the boundary beside the other face.
+    if (plan.request.diffraction_model == DiffractionModel::utd)
+      sum += edge_wave_bound(fresnel_parameter(effective, wavelength, passage.sin_beta, pi));
     if (!passage.inside) sum *= 0.75;
     bound *= sum * sum * effective * way / (passage.s_out * (passage.s_out + way));
     way += passage.s_out;
@@ -166,7 +198,7 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
                 std::span<const Interaction> interactions, const PathGeometry& geometry,
                 std::span<std::array<Complex, 2>> field) {
   const bool radio = plan.request.kind == WaveKind::radio;
-  const bool faces = plan.request.reflection;
+  const bool faces = faces_count(plan);
   const std::size_t legs = geometry.count - 1;
   std::array<Vec3, max_depth + 1> k;
   for (std::size_t i = 0; i < legs; ++i) k[i] = normalized(geometry.points[i + 1] - geometry.points[i]);
@@ -203,34 +235,28 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
         effective = passage.s_out * (radius + passage.s_out) * front.radius1 * front.radius2 /
                     (radius * (front.radius1 + passage.s_out) * (front.radius2 + passage.s_out));
       }
-      const auto term = [&](Boundary boundary) {
-        const double epsilon = beyond_boundary(wedge, passage, boundary);
-        // On the boundary itself the way past the edge counts as free, as shadow rays have it.
-        return edge_wave(fresnel_parameter(effective, wavelength, passage.sin_beta, epsilon), epsilon > 0);
-      };
-      const Complex incident = term(Boundary::incident);
+      const EdgeWaves u = edge_waves(plan.request.diffraction_model, wedge, passage, effective, wavenumber);
       Complex weight = end_weight(wedge, passage, wavelength, wavenumber);
       if (i > 0 && is_edge(interactions[i - 1]) && grazes_common_face(scene, geometry.edges[edge_number - 1], passage))
         weight *= 0.5;
       if (radio) {
-        Complex beta = incident * dot(e, in.beta), phi = incident * dot(e, in.phi);
+        Complex beta = u.incident * dot(e, in.beta), phi = u.incident * dot(e, in.phi);
         if (faces) {
           const Complex e_beta = dot(e, in.beta), e_phi = dot(e, in.phi);
-          const auto add_image = [&](Boundary boundary, const Vec3& normal, std::uint32_t material) {
+          const auto add_image = [&](Complex image, const Vec3& normal, std::uint32_t material) {
             const Dyadic d = reciprocal_image(plan, material, band, wedge.direction, k[i], k[i + 1], normal);
-            const Complex u = term(boundary);
-            beta += u * (d.bb * e_beta + d.bp * e_phi);
-            phi += u * (d.pb * e_beta + d.pp * e_phi);
+            beta += image * (d.bb * e_beta + d.bp * e_phi);
+            phi += image * (d.pb * e_beta + d.pp * e_phi);
           };
-          add_image(Boundary::face0, wedge.normal0, wedge.material0);
-          if (!wedge.free_rim) add_image(Boundary::facen, wedge.normaln(), wedge.materialn);
+          add_image(u.face0, wedge.normal0, wedge.material0);
+          if (!wedge.free_rim) add_image(u.facen, wedge.normaln(), wedge.materialn);
         }
         e = weight * combine(beta, out.beta, phi, out.phi);
       } else {
-        Complex sum = incident;
+        Complex sum = u.incident;
         if (faces) {
-          sum += face_reflection(plan, wedge.material0, band, 1).te * term(Boundary::face0);
-          if (!wedge.free_rim) sum += face_reflection(plan, wedge.materialn, band, 1).te * term(Boundary::facen);
+          sum += face_reflection(plan, wedge.material0, band, 1).te * u.face0;
+          if (!wedge.free_rim) sum += face_reflection(plan, wedge.materialn, band, 1).te * u.facen;
         }
         pressure *= weight * sum;
       }

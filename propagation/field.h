@@ -17,11 +17,12 @@ enum class Boundary { incident, face0, facen };
 
 /// Fields of a path for all bands: `field[band]` = h as {V, H} of the receiver's polar frame (sound: {p, 0}); |h|² =
 /// path gain. In free space h = λ/4π e^{−jkr}/r for radio, 1/√(4π) e^{−jkr}/r (1/m) for sound. Formula: faces by their
-/// coefficients and Jones vectors; an edge by the free-space diffraction law (three black edges: incident wave and its
-/// images in both faces; the incident one alone where the run has no reflection; the images by the faces' Fresnel
-/// dyadics, the mean of the way there and the way back), weight of its ends T = H + Σ w UV with w = ½ at an end that
-/// another wedge shares and 1 at one that none shares, amplitude √L √(ρe/(s(s+ρe))) with the astigmatic radii of the
-/// wave that arrives (Kouyoumjian & Pathak 1974, eqs. 31 to 35). Air: attenuation of the plan over the whole length.
+/// coefficients and Jones vectors; an edge by the model of the plan. `utd`: the four terms of Kouyoumjian & Pathak,
+/// faces always on. `fsd`: the free-space diffraction law (three black edges: incident wave and its images in both
+/// faces; the incident one alone where the run has no reflection; the images by the faces' Fresnel dyadics, the mean of
+/// the way there and the way back), weight of its ends T = H + Σ w UV with w = ½ at an end that another wedge shares
+/// and 1 at one that none shares, amplitude √L √(ρe/(s(s+ρe))) with the astigmatic radii of the wave that arrives
+/// (Kouyoumjian & Pathak 1974, eqs. 31 to 35). Air: attenuation of the plan over the whole length.
 void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmitter,
                 std::span<const Interaction> interactions, const PathGeometry& geometry,
                 std::span<std::array<std::complex<double>, 2>> field);

@@ -154,8 +154,8 @@ void read_propagation_section(ScenarioReader& reader, const ScenarioNode& root, 
   reader.read(*section, "max_reflections", 0, 1000, plan.max_reflections);
   reader.read(*section, "max_diffractions", 0, 1000, plan.max_diffractions);
   using enum DiffractionModel;
-  reader.read<DiffractionModel>(*section, "diffraction", {{"fsd", fsd}, {"fsd-published", fsd_published}},
-                                plan.diffraction_model, {"utd", "auto"});
+  reader.read<DiffractionModel>(*section, "diffraction", {{"fsd", fsd}, {"fsd-published", fsd_published}, {"utd", utd}},
+                                plan.diffraction_model, {"auto"});
   const ScenarioNode* mechanisms = section->find("mechanisms");
   if (mechanisms == nullptr) return;
   plan.direct = plan.reflection = plan.diffraction = false;

@@ -100,8 +100,12 @@ TEST_P(KnifeEdge, SoftAndHardHalfPlane) {
   plan.rays = 2e5;
   for (const double v : levels)
     plan.receivers.push_back(test::receiver_at({c.behind, 0, height_for(v, c, wavelength())}));
-  for (const bool soft : {false, true}) {
+  for (const auto& [soft, model] : {std::pair{false, DiffractionModel::fsd},
+                                    {true, DiffractionModel::fsd},
+                                    {false, DiffractionModel::utd},
+                                    {true, DiffractionModel::utd}}) {
     if (soft && c.kind == WaveKind::acoustic) continue;
+    plan.diffraction_model = model;
     plan.transmitters[0].antenna.polarisation = soft ? Polarisation::horizontal : Polarisation::vertical;
     const Result result = test::run(scene, plan);
     for (std::size_t i = 0; i < plan.receivers.size(); ++i) {

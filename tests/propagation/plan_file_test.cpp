@@ -317,7 +317,7 @@ TEST_F(PlanFile, FaultyOptionsAreNamedAsTheUserWroteThem) {
       {{"--seed x", "budget.seed", "x"}, "not a number", ""},
       {{"--seed 1.5", "budget.seed", "1.5"}, "not a whole number", ""},
       {{"--scene nowhere.xml", "scene.file", "nowhere.xml"}, "no such file", "nowhere.xml"},
-      {{"--diffraction utd", "propagation.diffraction", "utd"}, "not in this version", "fsd"},
+      {{"--diffraction auto", "propagation.diffraction", "auto"}, "not in this version", "fsd"},
       {{"--mechanisms direct,scattering", "propagation.mechanisms", "[direct,scattering]"}, "not in this version", ""},
       {{"--mechanisms ", "propagation.mechanisms", "[]"}, "empty list", ""},
   };

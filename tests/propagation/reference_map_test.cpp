@@ -131,12 +131,16 @@ TEST(ReferenceMapSlow, SpecularDepth3) {
 }
 
 // First order, perfect conductors, against a brute-force map by UTD. In the cells that see no transmitter, where few
-// edges touch another solid: the median is what the two laws differ by, 0.1 to 0.7 dB in cities, asked for is 0.5 dB.
-TEST(ReferenceMapSlow, FirstOrderDiffraction) {
+// edges touch another solid: the median is what the two laws differ by, 0.1 to 0.7 dB in cities, asked for is 0.5 dB;
+// for UTD itself the waves of the ends of edges, which the file has not, and 0.2 dB.
+class FirstOrder : public testing::TestWithParam<DiffractionModel> {};
+
+TEST_P(FirstOrder, Diffraction) {
   const auto rows = rows_of("etoile_first_order_utd_pec.csv.gz");
   if (rows.empty()) GTEST_SKIP() << "needs ../shared/reference/maps/etoile_first_order_utd_pec.csv.gz";
   PlanDescription description = etoile_plan();
   description.depth = 1;
+  description.diffraction_model = GetParam();
   const MapRun run = map_run(test::from_file(etoile, all_conductors()), description);
   const CoverageMap& map = *run.result.coverage;
   const std::size_t cells = map.path_gain.size();
@@ -156,9 +160,12 @@ TEST(ReferenceMapSlow, FirstOrderDiffraction) {
       "%+.4f dB of %zu; %.1f s\n",
       median(off), 100 * share(off, 1), 100 * share(off, 3), off.size(), median(direct), direct.size(),
       run.result.figures.trace_seconds);
-  EXPECT_LT(std::abs(median(off)), 0.5);
+  EXPECT_LT(std::abs(median(off)), GetParam() == DiffractionModel::utd ? 0.2 : 0.5);
   EXPECT_LT(std::abs(median(direct)), 1e-3);  // the same free space; half of the cells are lit as a whole
 }
+
+INSTANTIATE_TEST_SUITE_P(ReferenceMapSlow, FirstOrder, testing::Values(DiffractionModel::fsd, DiffractionModel::utd),
+                         [](const auto& p) { return p.param == DiffractionModel::utd ? "utd" : "fsd"; });
 
 /// "R:conductor D:17" → "RE".
 std::string class_of(const std::string& interactions) {

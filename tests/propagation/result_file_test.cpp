@@ -514,10 +514,28 @@ TEST(Summary, HasTheKeysOfTheContract) {
   const json summary = json::parse(summary_json(c.plan, c.result, {"result.h5", "coverage.png"}));
   Strings keys;
   for (const auto& [key, value] : summary.items()) keys.push_back(key);
-  EXPECT_EQ(keys, (Strings{"cells", "cells_asked", "cells_reached", "cpu_seconds", "flux", "mechanism_power",
-                           "median_standard_error_dB", "outputs", "passes", "peak_memory_bytes", "rays",
-                           "rays_per_second", "segments", "segments_per_second", "sequence_cell_pairs", "sequences", "shadow_rays", "stage_seconds", "threads",
-                           "trace_seconds", "wall_seconds", "warnings"}));
+  EXPECT_EQ(keys, (Strings{"cells",
+                           "cells_asked",
+                           "cells_reached",
+                           "cpu_seconds",
+                           "flux",
+                           "mechanism_power",
+                           "median_standard_error_dB",
+                           "outputs",
+                           "passes",
+                           "peak_memory_bytes",
+                           "rays",
+                           "rays_per_second",
+                           "segments",
+                           "segments_per_second",
+                           "sequence_cell_pairs",
+                           "sequences",
+                           "shadow_rays",
+                           "stage_seconds",
+                           "threads",
+                           "trace_seconds",
+                           "wall_seconds",
+                           "warnings"}));
   EXPECT_EQ(summary["wall_seconds"], 12.5);
   EXPECT_EQ(summary["rays_per_second"], 1e5);      // 1e6 rays in 10 s
   EXPECT_EQ(summary["segments_per_second"], 4e5);  // 4e6 in 10 s
