@@ -114,7 +114,7 @@ EvalFunction half_plane_exact() {
           soft_hard,
           "Incident wave e^{+j k rho cos(phi - phip)}.",
           [](const EvalRow& row) {
-            return flat(half_plane_plane_wave(row.number(0), degree * row.number(1), degree * row.number(2)));
+            return flat(half_plane_plane_wave(row.number(0), row.number(1), row.number(2), 180));
           }};
 }
 

@@ -163,19 +163,27 @@ void write_output(const std::string& name, const std::string& text) {
   }
   std::error_code fault;
   if (fs::is_directory(name, fault)) refuse("it is a folder");
-  const bool device = fs::exists(name, fault) && !fs::is_regular_file(name, fault);
-  const std::string written = device ? name : fmt::format("{}.{}.partial", name, getpid());
+  // What is no file of its own is written in place: a device, a pipe, and what stands under /dev and /proc.
+  const std::string whole = fs::absolute(name, fault).lexically_normal().string();
+  const bool device = whole.rfind("/dev/", 0) == 0 || whole.rfind("/proc/", 0) == 0 ||
+                      (fs::exists(name, fault) && !fs::is_regular_file(name, fault));
+  // A link stays a link: the file that it names is replaced.
+  fs::path target = name;
+  if (!device && fs::is_symlink(fs::symlink_status(name, fault))) {
+    target = fs::weakly_canonical(name, fault);
+    if (fault || fs::is_symlink(fs::symlink_status(target, fault))) refuse("it is a link that leads nowhere");
+  }
+  const std::string written = device ? name : fmt::format("{}.{}.partial", target.string(), getpid());
   std::ofstream stream(written, std::ios::binary);
   stream << text;
   stream.close();
   if (!stream) {
-    const bool folder_there =
-        fs::path(name).has_parent_path() ? fs::is_directory(fs::path(name).parent_path(), fault) : true;
+    const bool folder_there = target.has_parent_path() ? fs::is_directory(target.parent_path(), fault) : true;
     if (!device) fs::remove(written, fault);
     refuse(folder_there ? "no permission, or the disk is full" : "its folder is not there");
   }
   if (device) return;
-  fs::rename(written, name, fault);
+  fs::rename(written, target, fault);
   if (fault) {
     const std::string why = fault.message();
     fs::remove(written, fault);

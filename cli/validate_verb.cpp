@@ -97,7 +97,12 @@ std::string validation_table(const std::vector<CaseResult>& results, double seco
       text += fmt::format("  {}: error {:.3g}, allowed {:.3g}{} ({}){}\n", result.subject->name, result.outcome.error,
                           result.subject->tolerance, result.subject->unit == "1" ? "" : " " + result.subject->unit,
                           result.subject->reason, result.outcome.note.empty() ? "" : "; " + result.outcome.note);
+  const auto facts = std::count_if(results.begin(), results.end(),
+                                   [](const CaseResult& result) { return result.subject->at_least > 0; });
   text += fmt::format("\n{} of {} cases pass, {} miss, {:.1f} s\n", passed, results.size(), missed, seconds);
+  if (facts > 0)
+    text +=
+        fmt::format("{} of them record how far a theory errs where it is known to fail: bounds from ... to\n", facts);
   return text;
 }
 

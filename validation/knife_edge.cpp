@@ -10,6 +10,11 @@
 #include "validation/quadrature.h"
 
 namespace grimaldi {
+namespace {
+
+constexpr double largest_parameter = 100;
+
+}  // namespace
 
 std::complex<double> exact_knife_edge(double v) { return fresnel_tail(std::sqrt(pi / 2) * v); }
 
@@ -33,6 +38,11 @@ std::complex<double> exact_double_knife_edge(const DoubleKnifeEdge& edges) {
   const auto& [wavelength, d1, d2, d3, h1, h2] = edges;
   const double v1 = h1 * std::sqrt(2 / wavelength * (1 / d1 + 1 / (d2 + d3)));
   const double v2 = h2 * std::sqrt(2 / wavelength * (1 / (d1 + d2) + 1 / d3));
+  for (const auto& [name, v] : {std::pair{"h1", v1}, {"h2", v2}})
+    if (!(std::abs(v) <= largest_parameter))
+      faults.error({}, 0, name, fmt::format("its Fresnel parameter over the straight line is {:.4g}", v),
+                   fmt::format("digits are kept up to {:g} alone", largest_parameter), "take a lower edge");
+  faults.throw_if_errors();
   // tan of the angle whose sine is the correlation: exact where d2 is small against the others.
   const double end = std::atan(std::sqrt(d1 * d3 / (d2 * (d1 + d2 + d3))));
   const double squares = (v1 - v2) * (v1 - v2), product = v1 * v2;

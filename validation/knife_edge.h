@@ -23,8 +23,9 @@ struct DoubleKnifeEdge {
 /// exp(−j(π/2)(ν1² + ν2² − 2 ν1 ν2 sin θ)/cos² θ) dθ, r = √(d1 d3/((d1+d2)(d2+d3))), ν_i and E(ν_i) of each edge alone.
 /// Source: Millington, Hewitt & Immirzi, Proc. IEE 109C (1962); Plackett, Biometrika 41 (1954) for the second form.
 /// Returns: dimensionless.
-/// Error: 1e-12 absolute while |ν| ≤ 100 (held by DoubleKnifeEdge.*, against the double integral).
-/// Throws: InputErrors if a length is not > 0 or a number not finite.
+/// Valid: |ν| ≤ 100 of either edge over the straight line.
+/// Error: 1e-12 absolute (held by DoubleKnifeEdge.*, against the double integral).
+/// Throws: InputErrors if a length is not > 0, a number not finite, or |ν| above 100.
 std::complex<double> exact_double_knife_edge(const DoubleKnifeEdge& edges);
 
 /// −20 lg |field|, dB; +∞ for 0.

@@ -33,10 +33,26 @@ struct Prepared {
   std::array<Pair, 3> amplitude;
 };
 
+/// Twice the area, to 1e-15 of itself however thin the triangle: differences and products with their rounding errors.
+double twice_area_of(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
+  struct Difference {
+    double value, error;
+    Difference(double from, double to) : value(to - from), error(0) {
+      const double back = to - value;
+      error = (to - (value + back)) + (back - from);
+    }
+  };
+  const Difference x1(a[0], b[0]), y1(a[1], b[1]), x2(a[0], c[0]), y2(a[1], c[1]);
+  const double p = x1.value * y2.value, q = y1.value * x2.value;
+  const double rounding = std::fma(x1.value, y2.value, -p) - std::fma(y1.value, x2.value, -q);
+  const double differences = (x1.value * y2.error + x1.error * y2.value) - (y1.value * x2.error + y1.error * x2.value);
+  return std::fabs((p - q) + (rounding + differences));
+}
+
 Prepared prepare(const AmplitudeTriangle& t) {
   const auto& [a, b, c] = t.corner;
   Prepared p{a[0], a[1], b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1], {}};
-  const double twice_area = std::fabs(p.x1 * p.y2 - p.y1 * p.x2);
+  const double twice_area = twice_area_of(a, b, c);
   for (std::size_t i = 0; i < 3; ++i) p.amplitude[i] = twice_area * Pair{t.amplitude[i].real(), t.amplitude[i].imag()};
   return p;
 }

@@ -228,6 +228,22 @@ TEST_F(Eval, ResultsCanBeFedInAgain) {
   EXPECT_EQ(files_in("."), (std::vector<std::string>{"a.csv", "c.csv", "rows.csv", "stderr.txt", "stdout.txt"}));
 }
 
+// A link stays a link and its file is replaced; a device is written in place.
+TEST_F(Eval, LinksStayLinks) {
+  write("rows.csv", "x\n1\n");
+  write("real.csv", "old\n");
+  fs::create_symlink("real.csv", folder_ / "link.csv");
+  EXPECT_EQ(eval({"transition", "--in", "rows.csv", "--out", "link.csv"}).code, 0);
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link.csv"));
+  EXPECT_FALSE(fs::is_symlink(folder_ / "real.csv"));
+  EXPECT_GT(fs::file_size(folder_ / "real.csv"), 20u);
+  EXPECT_EQ(eval({"transition", "--in", "rows.csv", "--out", "/dev/null"}).code, 0);
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  fs::create_symlink("nowhere/at-all.csv", folder_ / "dangling.csv");
+  EXPECT_EQ(eval({"transition", "--in", "rows.csv", "--out", "dangling.csv"}).code, 1);
+  EXPECT_TRUE(fs::is_symlink(folder_ / "dangling.csv"));
+}
+
 TEST_F(Eval, RatiosBoundariesAndNames) {
   // 5/3 is met exactly; on the boundary itself the field is that of either side, for a hard wedge half the incident
   // wave and the rest; names in any case, blanks as underscores.

@@ -62,6 +62,19 @@ TEST(HalfPlane, Edge) {
   EXPECT_LE(std::abs(edge.hard - 1.0), 2e-15);
 }
 
+// Whole degrees are exact angles: the phases of symmetric directions are then the same bits, in radians they are not.
+TEST(HalfPlane, DegreesKeepTheirDigits) {
+  for (const double k_rho : {905.0, 4744.0})
+    for (const double phi : {17.0, 133.0, 347.0})
+      for (const double phip : {4.0, 84.0, 236.0}) {
+        const WedgeField degrees = half_plane_plane_wave(k_rho, phi, phip, 180);
+        const WedgeField radians = half_plane_plane_wave(k_rho, phi * pi / 180, phip * pi / 180);
+        EXPECT_LT(std::abs(degrees.hard - radians.hard), 1e-15 + 1.7e-15 * k_rho);
+        const WedgeField mirrored = half_plane_plane_wave(k_rho, 360 - phi, 360 - phip, 180);
+        EXPECT_EQ(degrees.hard, mirrored.hard);
+      }
+}
+
 TEST(HalfPlane, RefusesAnglesOutsideTheCircle) {
   EXPECT_THROW(half_plane_plane_wave(1, -0.1, 1), InputErrors);
   EXPECT_THROW(half_plane_plane_wave(1, 1, 6.3), InputErrors);
