@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <optional>
@@ -101,8 +103,9 @@ std::string table(const Comparison& comparison) {
                                  "95 % below", "> noise", "believe");
   const auto row = [&](const char* name, const DifferenceFigures& f, const std::string& believe) {
     if (f.cells == 0) return;
-    text += fmt::format("{:<14}{:>8}{:>8.2f} dB{:>8.2f} dB{:>8.2f} dB{:>7.1f} %  {}\n", name, f.cells, f.median,
-                        f.median_abs, f.p95_abs, 100 * f.beyond_noise, believe);
+    text += fmt::format("{:<14}{:>8}{:>8.2f} dB{:>8.2f} dB{:>8.2f} dB{:>9}  {}\n", name, f.cells, f.median,
+                        f.median_abs, f.p95_abs,
+                        std::isfinite(f.beyond_noise) ? fmt::format("{:.1f} %", 100 * f.beyond_noise) : "", believe);
   };
   row("all", comparison.all, "");
   for (std::size_t r = 0; r < region_count; ++r)
@@ -136,7 +139,7 @@ int compare_verb(const Arguments& arguments) {
   }
 
   std::vector<Diagnostic> warnings = warnings_of(diagnostics);
-  std::size_t shown = arguments.quiet ? 0 : print_warnings(warnings, 0);
+  const std::size_t shown = arguments.quiet ? 0 : print_warnings(warnings, 0);
   std::optional<Progress> progress;
   if (!arguments.quiet && (arguments.progress || stderr_is_terminal())) progress.emplace(stderr_is_terminal());
 
@@ -174,7 +177,10 @@ int compare_verb(const Arguments& arguments) {
   std::vector<Diagnostic> told = warnings;
   for (std::size_t m = 0; m < models.size(); ++m) {
     auto& [plan, result, summary] = runs[m];
-    told.insert(told.end(), result.warnings.begin(), result.warnings.end());
+    for (const Diagnostic& warning : result.warnings)  // both runs may say the same
+      if (std::none_of(told.begin(), told.end(),
+                       [&](const Diagnostic& one) { return to_string(one) == to_string(warning); }))
+        told.push_back(warning);
     result.warnings.insert(result.warnings.begin(), warnings.begin(), warnings.end());
     const OutputFolder& folder = folders.model[m];
     write_result(folder.file("result.h5"), scene, plan, result, program_version());
@@ -194,7 +200,7 @@ int compare_verb(const Arguments& arguments) {
   const std::string json = comparison_json(comparison, runs[0].summary, runs[1].summary, words);
   write_text(folders.all.file("compare.json"), json);
 
-  if (!arguments.quiet) print_rest(told, print_warnings(told, shown), "summary.json");
+  if (!arguments.quiet) print_rest(told, print_warnings(told, shown), "fsd/summary.json and utd/summary.json");
   if (arguments.json) {
     fmt::print("{}", json);
   } else if (!arguments.quiet) {

@@ -153,8 +153,8 @@ Belief belief(Region region, bool solid) {
   if (!solid) return {"either", "At the edges of thin screens both theories are the same law."};
   if (region == Region::transition)
     return {"utd",
-            "At the shadow boundary itself both are within 0.1 dB; beside it the three black edges of FSD err by up to "
-            "2.6 dB behind a soft solid wedge, UTD by 0.02 dB."};
+            "Beside the shadow boundary of a soft solid wedge the three black edges of FSD err by up to 2.6 dB, UTD by "
+            "0.02 dB."};
   if (region == Region::shadow)
     return {
         "utd",
@@ -171,11 +171,12 @@ using Json = nlohmann::ordered_json;
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json figures_json(const DifferenceFigures& f) {
-  return {{"cells", f.cells},
-          {"median", number(f.median)},
-          {"median_abs", number(f.median_abs)},
-          {"p95_abs", number(f.p95_abs)},
-          {"beyond_noise", number(f.beyond_noise)}};
+  Json json = {{"cells", f.cells},
+               {"median", number(f.median)},
+               {"median_abs", number(f.median_abs)},
+               {"p95_abs", number(f.p95_abs)}};
+  if (std::isfinite(f.beyond_noise)) json["beyond_noise"] = f.beyond_noise;
+  return json;
 }
 
 Json receiver_json(const ReceiverFigures& f) {
@@ -203,10 +204,9 @@ Comparison compare_results(const Scene& scene, const Tracer& tracer, const Plan&
       result.sort[cell] = Comparison::Sort::inside;
       continue;
     }
-    const bool beyond = std::abs(of_fsd - of_utd) > 2 * std::sqrt(a.variance(cell) + b.variance(cell));
     for (std::size_t m = 0; m < mechanism_count; ++m) {
       const double f = a.layer(Mechanism(m), cell), u = b.layer(Mechanism(m), cell);
-      if (f > 0 && u > 0) mechanisms[m].add(decibels(f / u), beyond);
+      if (f > 0 && u > 0) mechanisms[m].add(decibels(f / u), false);
     }
     if (!(of_fsd > 0 && of_utd > 0)) {
       if (of_fsd > 0) result.sort[cell] = Comparison::Sort::only_fsd, ++result.only_fsd;
@@ -216,6 +216,8 @@ Comparison compare_results(const Scene& scene, const Tracer& tracer, const Plan&
     const double difference = decibels(of_fsd / of_utd);
     result.sort[cell] = Comparison::Sort::both;
     result.difference_dB[cell] = difference;
+    const bool beyond = std::abs(difference) > same_level &&
+                        std::abs(of_fsd - of_utd) > 2 * std::sqrt(a.variance(cell) + b.variance(cell));
     beyond_noise[cell] = beyond;
     all.add(difference, beyond);
   }
@@ -229,7 +231,8 @@ Comparison compare_results(const Scene& scene, const Tracer& tracer, const Plan&
     result.regions[r] = regions[r].figures();
     result.beliefs[r] = belief(Region(r), result.solid);
   }
-  for (std::size_t m = 0; m < mechanism_count; ++m) result.mechanisms[m] = mechanisms[m].figures();
+  for (std::size_t m = 0; m < mechanism_count; ++m)
+    result.mechanisms[m] = mechanisms[m].figures(), result.mechanisms[m].beyond_noise = nothing;
   for (std::size_t r = 0; r < fsd.profiles.size(); ++r) {
     result.receivers.push_back(fsd.profiles[r].name);
     result.fsd.push_back(receiver_figures(plan, quantity, fsd.profiles[r]));

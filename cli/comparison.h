@@ -26,11 +26,15 @@ inline constexpr const char* region_names[region_count] = {"lit", "transition", 
 /// Far from its boundary an edge's wave is 1/(√2 π |v|) of the field: 0.1 and 0.01 at these two.
 inline constexpr double transition_v = 2.25, shadow_v = 22.5;
 
+/// Half-plane laws of both theories agree to this, dB: less is no disagreement, even where the sampling has no noise.
+inline constexpr double same_level = 0.02;
+
 /// Level of FSD less that of UTD over some cells, dB. NaN where there are no cells.
 struct DifferenceFigures {
   std::size_t cells = 0;
   double median = 0, median_abs = 0, p95_abs = 0;
-  double beyond_noise = 0;  ///< share of the cells (0 … 1) that differ by more than twice both standard errors together
+  double beyond_noise = 0;  ///< share of the cells (0 … 1) that differ by more than twice their noise and by more than
+                            ///< `same_level`; NaN for mechanisms, whose errors are not known
 };
 
 /// Whom to believe in a region, as `grimaldi validate` has measured it; `why` in one sentence.

@@ -110,12 +110,16 @@ std::vector<std::string> comparison_words(const Plan& plan, const Comparison& co
   const DifferenceFigures& all = comparison.all;
   if (all.cells == 0) {
     words.push_back("No cell is reached by both theories: there is nothing to compare.");
+  } else if (all.p95_abs < 0.05) {
+    words.push_back(fmt::format("Over {} that both theories reach they say the same: 95 % differ by less than 0.05 dB.",
+                                counted(all.cells, "cell")));
   } else {
+    words.push_back(
+        fmt::format("Over {} that both theories reach, {}; half of them differ by less than {}, 95 % by less than {}.",
+                    counted(all.cells, "cell"), who_is_stronger(all), dB(all.median_abs), dB(all.p95_abs)));
     words.push_back(fmt::format(
-        "Over {} that both theories reach, {}; half of them differ by less than {}, 95 % by less than {}. {} of them "
-        "differ by more than twice the standard errors of both runs together: there the theories disagree, not the "
-        "sampling.",
-        counted(all.cells, "cell"), who_is_stronger(all), dB(all.median_abs), dB(all.p95_abs),
+        "{} of them differ by more than twice the standard errors of both runs together: there the theories disagree; "
+        "elsewhere the sampling may be all of the difference.",
         percent(all.beyond_noise)));
   }
   if (comparison.only_fsd + comparison.only_utd > 0)

@@ -99,7 +99,9 @@ std::vector<LegendEntry> legend_entries(const Comparison& comparison) {
   const auto plain = [](Colour colour) { return [colour](int, int) { return colour; }; };
   std::vector<LegendEntry> entries;
   const auto add = [&](Sort sort, const char* words, std::function<Colour(int, int)> colour) {
-    if (count(sort) > 0) entries.push_back({fmt::format("{} ({} cells)", words, count(sort)), std::move(colour)});
+    if (count(sort) > 0)
+      entries.push_back(
+          {fmt::format("{} ({} {})", words, count(sort), count(sort) == 1 ? "cell" : "cells"), std::move(colour)});
   };
   add(Sort::inside, "inside a building", plain(inside_colour));
   add(Sort::neither, "reached by neither", hatched);
