@@ -1,9 +1,10 @@
 #include "cli/comparison.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "cli/plan_words.h"
 #include "cli/shadow_depth.h"
@@ -103,6 +104,7 @@ std::vector<Region> regions_of(const Scene& scene, const Tracer& tracer, const P
                                const ShownQuantity& quantity, const std::vector<Comparison::Sort>& sort) {
   const std::size_t cells = plan.grid.size();
   const double wavelength = 2 * pi / plan.wavenumber.front();
+  const ShadowDepth depth(scene, tracer, wavelength);
   std::vector<Region> regions(cells, Region::lit);
   for_each_block(plan.grid.ny, plan.request.threads, [&](std::size_t row, unsigned) {
     for (std::size_t cell = row * plan.grid.nx; cell < (row + 1) * plan.grid.nx; ++cell) {
@@ -114,8 +116,8 @@ std::vector<Region> regions_of(const Scene& scene, const Tracer& tracer, const P
         if (gain > most) most = gain, strongest = t;
       }
       const Vec3& from = plan.request.transmitters[strongest].position;
-      regions[cell] = region_of(shadow_depth(scene, tracer, from, outdoor_point(plan, tracer, map, cell), wavelength,
-                                             transition_v, shadow_v));
+      const Vec3 to = outdoor_point(plan, tracer, map, cell);
+      regions[cell] = region_of(depth(from, to, transition_v, shadow_v));
     }
   });
   return regions;
@@ -166,21 +168,42 @@ Belief belief(Region region, bool solid) {
       "be trusted."};
 }
 
-using Json = nlohmann::ordered_json;
+// What is not finite is null.
+std::string number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json figures_json(const DifferenceFigures& f) {
-  Json json = {{"cells", f.cells},
-               {"median", number(f.median)},
-               {"median_abs", number(f.median_abs)},
-               {"p95_abs", number(f.p95_abs)}};
-  if (std::isfinite(f.beyond_noise)) json["beyond_noise"] = f.beyond_noise;
-  return json;
+/// `text` in quotes, as JSON has it. Requires text without control characters.
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + "\"";
 }
 
-Json receiver_json(const ReceiverFigures& f) {
-  return {{"level_dB", number(f.level_dB)}, {"delay_spread_s", number(f.delay_spread_s)}};
+/// Members of an object, without its braces.
+std::string members(const DifferenceFigures& f) {
+  std::string text = fmt::format(R"("cells": {}, "median": {}, "median_abs": {}, "p95_abs": {})", f.cells,
+                                 number(f.median), number(f.median_abs), number(f.p95_abs));
+  if (std::isfinite(f.beyond_noise)) text += fmt::format(R"(, "beyond_noise": {})", f.beyond_noise);
+  return text;
+}
+
+std::string members(const ReceiverFigures& f) {
+  return fmt::format(R"("level_dB": {}, "delay_spread_s": {})", number(f.level_dB), number(f.delay_spread_s));
+}
+
+/// A summary as a member: its lines further in, no line at the end.
+std::string nested(std::string summary) {
+  while (!summary.empty() && summary.back() == '\n') summary.pop_back();
+  std::string out;
+  for (const char c : summary) out += c == '\n' ? std::string("\n    ") : std::string(1, c);
+  return out;
+}
+
+std::string joined(const std::vector<std::string>& lines, char open, char close) {
+  if (lines.empty()) return {open, close};
+  return fmt::format("{}\n    {}\n  {}", open, fmt::join(lines, ",\n    "), close);
 }
 
 }  // namespace
@@ -243,33 +266,39 @@ Comparison compare_results(const Scene& scene, const Tracer& tracer, const Plan&
 
 std::string comparison_json(const Comparison& comparison, const std::string& fsd_summary,
                             const std::string& utd_summary, const std::vector<std::string>& words) {
-  Json json;
-  json["models"] = {{"fsd", Json::parse(fsd_summary)}, {"utd", Json::parse(utd_summary)}};
-  json["difference_dB"] = figures_json(comparison.all);
-  json["only_fsd_cells"] = comparison.only_fsd;
-  json["only_utd_cells"] = comparison.only_utd;
-  json["regions"] = Json::array();
-  for (std::size_t r = 0; r < region_count; ++r) {
-    Json one = {{"name", region_names[r]}};
-    one.update(figures_json(comparison.regions[r]));
-    one["believe"] = comparison.beliefs[r].model;
-    one["why"] = comparison.beliefs[r].why;
-    json["regions"].push_back(one);
-  }
-  json["mechanisms"] = Json::object();
+  std::vector<std::string> regions, mechanisms, profiles, sentences;
+  for (std::size_t r = 0; r < region_count; ++r)
+    regions.push_back(fmt::format(R"({{"name": {}, {}, "believe": {}, "why": {}}})", quoted(region_names[r]),
+                                  members(comparison.regions[r]), quoted(comparison.beliefs[r].model),
+                                  quoted(comparison.beliefs[r].why)));
   for (std::size_t m = 0; m < mechanism_count; ++m)
     if (comparison.mechanisms[m].cells > 0)
-      json["mechanisms"][mechanism_names[m]] = figures_json(comparison.mechanisms[m]);
-  json["profiles"] = Json::object();
+      mechanisms.push_back(fmt::format(R"({}: {{{}}})", quoted(mechanism_names[m]), members(comparison.mechanisms[m])));
   for (std::size_t r = 0; r < comparison.receivers.size(); ++r) {
     const ReceiverFigures &f = comparison.fsd[r], &u = comparison.utd[r];
-    Json one = receiver_json({f.level_dB - u.level_dB, f.delay_spread_s - u.delay_spread_s});
-    one["fsd"] = receiver_json(f);
-    one["utd"] = receiver_json(u);
-    json["profiles"][comparison.receivers[r]] = one;
+    profiles.push_back(
+        fmt::format(R"({}: {{{}, "fsd": {{{}}}, "utd": {{{}}}}})", quoted(comparison.receivers[r]),
+                    members(ReceiverFigures{f.level_dB - u.level_dB, f.delay_spread_s - u.delay_spread_s}), members(f),
+                    members(u)));
   }
-  json["words"] = words;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  for (const std::string& sentence : words) sentences.push_back(quoted(sentence));
+  return fmt::format(R"({{
+  "models": {{
+    "fsd": {},
+    "utd": {}
+  }},
+  "difference_dB": {{{}}},
+  "only_fsd_cells": {},
+  "only_utd_cells": {},
+  "regions": {},
+  "mechanisms": {},
+  "profiles": {},
+  "words": {}
+}}
+)",
+                     nested(fsd_summary), nested(utd_summary), members(comparison.all), comparison.only_fsd,
+                     comparison.only_utd, joined(regions, '[', ']'), joined(mechanisms, '{', '}'),
+                     joined(profiles, '{', '}'), joined(sentences, '[', ']'));
 }
 
 }  // namespace grimaldi

@@ -172,7 +172,8 @@ TEST(ShadowDepth, OfTheHalfPlaneIsThatOfTheKnifeEdge) {
   const Scene scene = test::built_in("half-plane");
   const Tracer tracer(scene);
   const double wavelength = 0.3;
-  const auto depth = [&](double z) { return shadow_depth(scene, tracer, {-50, 0, z}, {50, 3, z}, wavelength, 5, 5); };
+  const ShadowDepth around(scene, tracer, wavelength);
+  const auto depth = [&](double z) { return around({-50, 0, z}, {50, 3, z}, 5, 5); };
   for (const double height : {1.0, 2.0, 5.0}) {
     const double v = height * std::sqrt(2 * 100 / (wavelength * 50 * 50));
     EXPECT_NEAR(depth(-height), v, 0.005 * v);
