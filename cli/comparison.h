@@ -65,8 +65,8 @@ struct Comparison {
 };
 
 /// Compares the first band of two results of the same plan; both must have a coverage map with the shapes of `plan`.
-/// The noise of a cell is √(σ² of FSD + σ² of UTD). Both runs find the same paths from the same beams, so their errors
-/// go together and this is more than the noise of the difference.
+/// The noise of a cell is √(σ² of FSD + σ² of UTD). Both runs send the same beams and find mostly the same
+/// paths, so their errors go together and this is more than the noise of the difference.
 Comparison compare_results(const Scene& scene, const Tracer& tracer, const Plan& plan, const Result& fsd,
                            const Result& utd);
 

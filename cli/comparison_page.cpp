@@ -35,14 +35,14 @@ std::string who_is_stronger(const DifferenceFigures& f) {
   return fmt::format("in the median {} is stronger by {}", f.median > 0 ? "FSD" : "UTD", dB(std::abs(f.median)));
 }
 
-std::string figures_row(const std::string& name, const DifferenceFigures& f, const std::string& more) {
-  return fmt::format("<tr><td>{}<td class=n>{}<td class=n>{}<td class=n>{}<td class=n>{}<td class=n>{}{}</tr>\n",
-                     escaped(name), f.cells, dB(f.median), dB(f.median_abs), dB(f.p95_abs), percent(f.beyond_noise),
-                     more);
+/// The columns of `figures_head` or, with noise, those of `noisy_head`.
+std::string figures_cells(const DifferenceFigures& f, bool noise) {
+  return fmt::format("<td class=n>{}<td class=n>{}<td class=n>{}<td class=n>{}{}", f.cells, dB(f.median),
+                     dB(f.median_abs), dB(f.p95_abs), noise ? "<td class=n>" + percent(f.beyond_noise) : "");
 }
 
-constexpr const char* figures_head =
-    "<th>cells<th>median<th>median of the size<th>95 % below<th>beyond twice the noise";
+constexpr const char* figures_head = "<th>cells<th>median<th>median of the size<th>95 % below";
+constexpr const char* noisy_head = "<th>cells<th>median<th>median of the size<th>95 % below<th>beyond twice the noise";
 
 std::string picture_html(const std::string& png, const std::string& caption) {
   return fmt::format(
@@ -57,14 +57,11 @@ std::string region_table(const Comparison& comparison) {
       "v from 2.25 to 22.5: one edge leads around; a knife edge would cost 20 to 40 dB",
       "v above 22.5, or two and more edges to pass"};
   std::string html =
-      fmt::format("<div class=scroll><table><tr><th>region<th>what it is{}<th>believe<th>why</tr>\n", figures_head);
+      fmt::format("<div class=scroll><table><tr><th>region<th>what it is{}<th>believe<th>why</tr>\n", noisy_head);
   for (std::size_t r = 0; r < region_count; ++r) {
     const Belief& belief = comparison.beliefs[r];
-    std::string row = figures_row(region_names[r], comparison.regions[r],
-                                  fmt::format("<td class=v>{}<td>{}", escaped(belief.model), escaped(belief.why)));
-    const std::string name = fmt::format("<tr><td>{}", region_names[r]);
-    row.insert(name.size(), fmt::format("<td>{}", meaning[r]));
-    html += row;
+    html += fmt::format("<tr><td>{}<td>{}{}<td class=v>{}<td>{}</tr>\n", region_names[r], meaning[r],
+                        figures_cells(comparison.regions[r], true), escaped(belief.model), escaped(belief.why));
   }
   return html + "</table></div>\n";
 }
@@ -72,7 +69,8 @@ std::string region_table(const Comparison& comparison) {
 std::string mechanism_table(const Comparison& comparison) {
   std::string html = fmt::format("<table><tr><th>mechanism{}</tr>\n", figures_head);
   for (std::size_t m = 0; m < mechanism_count; ++m)
-    if (comparison.mechanisms[m].cells > 0) html += figures_row(mechanism_names[m], comparison.mechanisms[m], "");
+    if (comparison.mechanisms[m].cells > 0)
+      html += fmt::format("<tr><td>{}{}</tr>\n", mechanism_names[m], figures_cells(comparison.mechanisms[m], false));
   return html + "</table>\n";
 }
 
@@ -176,10 +174,9 @@ std::string comparison_page(const Scene& scene, const Plan& plan, const Comparis
       escaped(program_version()));
   for (const std::string& sentence : comparison_words(plan, comparison, fsd, utd))
     html += "<p>" + escaped(sentence) + "</p>\n";
-  html +=
-      picture_html(pictures.difference,
-                   "FSD, UTD and their difference in dB, with the same beams and paths. Red: FSD is stronger; blue: "
-                   "UTD is stronger.");
+  html += picture_html(pictures.difference,
+                       "FSD, UTD and their difference in dB, with the same beams. Red: FSD is stronger; blue: "
+                       "UTD is stronger.");
   html +=
       "<h2>By region</h2>\n<p>The regions go by v, the parameter of the dominant knife edge between the transmitter "
       "that "
@@ -195,9 +192,8 @@ std::string comparison_page(const Scene& scene, const Plan& plan, const Comparis
       "<th>shadow rays<th>cells reached<th>median standard error</tr>\n" +
       model_row("FSD", plan, fsd) + model_row("UTD", plan, utd) +
       "</table>\n<p class=why>Noise of a cell: the square root of the sum of both squared standard errors. Both runs "
-      "find "
-      "the same paths from the same beams, so that their errors go together: the noise of the difference is "
-      "smaller.</p>\n<h2>Each map</h2>\n" +
+      "send the same beams and find mostly the same paths, so that their errors go together: the noise of the "
+      "difference is smaller.</p>\n<h2>Each map</h2>\n" +
       picture_html(pictures.fsd, "Free-space diffraction BSDF (FSD): three black edges stand for a solid wedge.") +
       picture_html(pictures.utd, "Uniform theory of diffraction (UTD): the four terms of Kouyoumjian and Pathak.");
   return html + "</main></body></html>\n";

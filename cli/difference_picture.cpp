@@ -156,7 +156,7 @@ Canvas difference_picture(const Scene& scene, const Plan& plan, const Result& fs
   second.front() = "depth " + std::to_string(plan.request.depth);
   second.erase(second.begin() + 1);
   second.push_back(fmt::format("cells of {:g} m", plan.grid.cell));
-  second.push_back("the same beams and paths, two laws of diffraction");
+  second.push_back("the same beams, two laws of diffraction");
   const std::string title =
       fmt::format("Two theories of diffraction: FSD less UTD{}{}{}{}{}{}", title_separator, scene_words(scene),
                   title_separator, band_words(plan), title_separator, transmitter_words(plan));

@@ -71,7 +71,8 @@ double ShadowDepth::operator()(const Vec3& from, const Vec3& to, double lit_limi
   }
   std::sort(ways.begin(), ways.end(), [](const Way& a, const Way& b) { return a.detour < b.detour; });
   for (const Way& way : ways)
-    if (tracer_.visible(from, way.point) && tracer_.visible(way.point, to))
+    // Down in the street fewer edges are in sight than from a mast: ask there first.
+    if (tracer_.visible(way.point, to) && tracer_.visible(from, way.point))
       return (lit ? -2 : 2) * std::sqrt(way.detour / wavelength_);
   return lit ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
 }
