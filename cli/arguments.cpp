@@ -14,14 +14,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> verbs = {"coverage", "profile", "scene", "eval", "validate"};
-const std::vector<std::string> later_verbs = {"compare", "tradeoff", "report"};
+const std::vector<std::string> verbs = {"coverage", "profile", "compare", "scene", "eval", "validate"};
+const std::vector<std::string> later_verbs = {"tradeoff", "report"};
 
 constexpr const char* examples = R"(Examples:
   grimaldi coverage city.toml
   grimaldi coverage city.toml --set coverage.cell_size=2 --set transmitter.0.power=30dBm -o fine
   grimaldi coverage --scene demo-city --frequency 3.5GHz --tx 8.5,21,27 --height 1.5 --cell-size 5 --rays 1e6 --depth 3 -o out
   grimaldi profile city.toml --rx 40,-60,1.5 --rx=-8,21,1.5
+  grimaldi compare city.toml
   grimaldi scene city.xml --json
   grimaldi scene street-canyon --set scene.parameters.width=30
   grimaldi eval --list
@@ -199,16 +200,22 @@ Arguments parse_arguments(int argc, const char* const* argv, Diagnostics& diagno
   app.set_version_flag("--version", std::string("grimaldi ") + program_version());
   app.footer(examples);
   app.require_subcommand(0, 1);
-  RunOptions coverage_options, profile_options;
+  RunOptions coverage_options, profile_options, compare_options;
   CLI::App& coverage = *app.add_subcommand("coverage", "coverage map, and point receivers if there are any");
   CLI::App& profile =
       *app.add_subcommand("profile", "power-delay profiles at point receivers, with the paths explained");
+  CLI::App& compare =
+      *app.add_subcommand("compare", "one scenario with both theories of diffraction, FSD and UTD, side by side");
   CLI::App& scene =
       *app.add_subcommand("scene", "what the program sees in a scene: triangles, wedges, materials, defects");
   add_run_options(coverage, coverage_options, arguments, true);
   add_run_options(profile, profile_options, arguments, false);
+  add_run_options(compare, compare_options, arguments, true);
   coverage.footer("Writes DIR/result.h5, DIR/coverage.png, DIR/summary.json.\n\n" + std::string(examples));
   profile.footer("Writes DIR/result.h5, DIR/profiles.png, DIR/summary.json.\n\n" + std::string(examples));
+  compare.footer(
+      "Writes DIR/fsd and DIR/utd, each as coverage does, DIR/difference.png, DIR/compare.json, DIR/report.html.\n\n" +
+      std::string(examples));
   scene.allow_extras();
   scene.add_option("file", arguments.input, "a scene file, or the name of a built-in scene")->type_name("FILE|NAME");
   std::vector<std::string> scene_sets;
@@ -268,6 +275,10 @@ Arguments parse_arguments(int argc, const char* const* argv, Diagnostics& diagno
     arguments.verb = Verb::profile;
     take_run_options(profile, profile_options, arguments, diagnostics);
     refuse_extras(profile, arguments, diagnostics);
+  } else if (compare.parsed()) {
+    arguments.verb = Verb::compare;
+    take_run_options(compare, compare_options, arguments, diagnostics);
+    refuse_extras(compare, arguments, diagnostics);
   } else if (scene.parsed()) {
     arguments.verb = Verb::scene;
     take_sets(scene_sets, arguments, diagnostics);

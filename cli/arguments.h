@@ -11,7 +11,7 @@
 
 namespace grimaldi {
 
-enum class Verb { none, coverage, profile, scene, eval, validate };
+enum class Verb { none, coverage, profile, scene, eval, validate, compare };
 
 struct Arguments {
   Verb verb = Verb::none;

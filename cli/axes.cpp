@@ -100,6 +100,24 @@ Colour colour_of(double value, const ValueRange& range) {
   return {channel(0), channel(1), channel(2)};
 }
 
+Colour diverging_colour_of(double value, const ValueRange& range) {
+  static constexpr std::array<Colour, 11> classes{{{5, 48, 97},
+                                                   {33, 102, 172},
+                                                   {67, 147, 195},
+                                                   {146, 197, 222},
+                                                   {209, 229, 240},
+                                                   {247, 247, 247},
+                                                   {253, 219, 199},
+                                                   {244, 165, 130},
+                                                   {214, 96, 77},
+                                                   {178, 24, 43},
+                                                   {103, 0, 31}}};
+  GRIMALDI_EXPECT(range.low < range.high && !std::isnan(value));
+  const double place = std::clamp((value - range.low) / (range.high - range.low), 0.0, 1.0) * (classes.size() - 1);
+  const std::size_t i = std::min<std::size_t>(std::size_t(place), classes.size() - 2);
+  return mix(classes[i], classes[i + 1], place - double(i));
+}
+
 Ticks axis_ticks(const ValueRange& range, double length, double size, bool side_by_side) {
   // Not nearer than a reader needs: 90 px across, 70 px up, for type of 22 px.
   int most = std::max(3, 1 + int(length / (side_by_side ? 4.1 * size : 3.2 * size)));
@@ -144,7 +162,7 @@ void draw_y_axis(Canvas& canvas, const PlotBox& panel, const ValueRange& range, 
 }
 
 void draw_colour_bar(Canvas& canvas, const PlotBox& bar, const ValueRange& range, const std::string& name, bool below,
-                     bool above, double size) {
+                     bool above, double size, ColourScale colours) {
   const bool upright = bar.height() > bar.width();
   const double point = upright ? bar.width() : bar.height();  // length of an end's point
   PlotBox body = bar;
@@ -159,7 +177,7 @@ void draw_colour_bar(Canvas& canvas, const PlotBox& bar, const ValueRange& range
   for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < columns; ++i) {
       const double share = upright ? (rows - j - 0.5) / rows : (i + 0.5) / columns;
-      pixels[std::size_t(j) * std::size_t(columns) + std::size_t(i)] = colour_of(share, {0, 1});
+      pixels[std::size_t(j) * std::size_t(columns) + std::size_t(i)] = colours(share, {0, 1});
     }
   }
   canvas.image(int(body.left), int(body.top), columns, pixels);
@@ -169,7 +187,7 @@ void draw_colour_bar(Canvas& canvas, const PlotBox& bar, const ValueRange& range
     rim.push_back(a);
     if (there) {
       const std::array<PlotPoint, 3> corners{a, tip, b};
-      canvas.polygon(corners, colour_of(value, {0, 1}), black, 0);
+      canvas.polygon(corners, colours(value, {0, 1}), black, 0);
       rim.push_back(tip);
     }
     rim.push_back(b);

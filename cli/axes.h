@@ -39,6 +39,13 @@ std::string tick_text(double value, double step);
 /// entries. Requires low < high, value not NaN.   Error: at most 7 of 255 in any channel against the full table.
 Colour colour_of(double value, const ValueRange& range);
 
+/// The colour of `value` on a scale that diverges from the middle of `range`: blue below, near white, red above.
+/// Source: C. Brewer, ColorBrewer 2.0, scheme RdBu of 11 classes (safe for the colour-blind). Requires low < high,
+/// value not NaN.
+Colour diverging_colour_of(double value, const ValueRange& range);
+
+using ColourScale = Colour (*)(double value, const ValueRange& range);
+
 /// Ticks along `length` px whose labels of size `size` px do not touch; labels stand side by side (x axis) or above one
 /// another (y axis).
 Ticks axis_ticks(const ValueRange& range, double length, double size, bool side_by_side);
@@ -55,11 +62,11 @@ void draw_x_axis(Canvas& canvas, const PlotBox& panel, const ValueRange& range, 
 void draw_y_axis(Canvas& canvas, const PlotBox& panel, const ValueRange& range, const Ticks& ticks,
                  const std::string& name, const std::string& short_name, double size);
 
-/// A bar of the scale of colour_of with ticks and a name: upright (ticks to its right) if it is higher than wide, else
+/// A bar of the scale `colours` with ticks and a name: upright (ticks to its right) if it is higher than wide, else
 /// lying (ticks below). `below` and `above` add a point at an end: there are values beyond it. The points lie within
 /// `bar`.
 void draw_colour_bar(Canvas& canvas, const PlotBox& bar, const ValueRange& range, const std::string& name, bool below,
-                     bool above, double size);
+                     bool above, double size, ColourScale colours = colour_of);
 /// Width that an upright bar needs right of itself for ticks and name, px.
 double colour_bar_margin(const ValueRange& range, double length, double size);
 

@@ -8,6 +8,7 @@
 #include <new>
 
 #include "cli/arguments.h"
+#include "cli/compare_verb.h"
 #include "cli/eval_verb.h"
 #include "cli/run_verb.h"
 #include "cli/scene_verb.h"
@@ -25,6 +26,7 @@ int run(int argc, char** argv, std::chrono::steady_clock::time_point start) {
     return arguments.exit_code;
   }
   if (arguments.verb == Verb::eval) return eval_verb(arguments);
+  if (arguments.verb == Verb::compare) return compare_verb(arguments);
   if (arguments.verb == Verb::validate) return validate_verb(arguments);
   return arguments.verb == Verb::scene ? scene_verb(arguments) : run_verb(arguments, start);
 }

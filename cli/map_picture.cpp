@@ -125,14 +125,6 @@ Segments roof_lines(const Scene& scene, const MapFrame& frame) {
   return segments;
 }
 
-void draw_transmitter(Canvas& canvas, PlotPoint at, double unit) {
-  const double r = 13 * unit;
-  const std::array<PlotPoint, 3> corners{
-      {{at.x, at.y - r}, {at.x + 0.866 * r, at.y + 0.5 * r}, {at.x - 0.866 * r, at.y + 0.5 * r}}};
-  canvas.polygon(corners, black, black, 4.5 * unit);
-  canvas.polygon(corners, transmitter_colour, white, 3 * unit);
-}
-
 void draw_receiver(Canvas& canvas, PlotPoint at, double unit) {
   canvas.disc(at, 6.5 * unit, receiver_colour, black, 3 * unit);
 }
@@ -402,6 +394,24 @@ ValueRange colour_range(std::span<const double> values) {
   return range;
 }
 
+void draw_transmitter(Canvas& canvas, PlotPoint at, double unit) {
+  const double r = 13 * unit;
+  const std::array<PlotPoint, 3> corners{
+      {{at.x, at.y - r}, {at.x + 0.866 * r, at.y + 0.5 * r}, {at.x - 0.866 * r, at.y + 0.5 * r}}};
+  canvas.polygon(corners, black, black, 4.5 * unit);
+  canvas.polygon(corners, transmitter_colour, white, 3 * unit);
+}
+
+void draw_buildings(Canvas& canvas, const Scene& scene, const MapFrame& frame, double unit) {
+  const PlotBox panel{double(frame.left), double(frame.top), double(frame.left + frame.columns),
+                      double(frame.top + frame.rows)};
+  const double pixels_per_metre = frame.columns / (double(frame.grid.nx) * frame.grid.cell);
+  const double wall =
+      std::clamp(0.5 * pixels_per_metre, 1.2, 2.4) * unit;  // half a metre thick, as long as that can be seen
+  canvas.lines(roof_lines(scene, frame), panel, {35, 35, 35}, 0.6 * wall, 0.6);
+  canvas.lines(section(scene, frame), panel, {25, 25, 25}, wall);
+}
+
 MapPicture coverage_picture(const Scene& scene, const Plan& plan, const Result& result) {
   GRIMALDI_EXPECT(result.coverage.has_value());
   const ShownQuantity quantity = shown_quantity(plan);
@@ -444,11 +454,7 @@ MapPicture coverage_picture(const Scene& scene, const Plan& plan, const Result& 
   }
 
   draw_cells(canvas, layout, shown);
-  const double pixels_per_metre = layout.frame.columns / (double(plan.grid.nx) * plan.grid.cell);
-  const double wall =
-      std::clamp(0.5 * pixels_per_metre, 1.2, 2.4) * u;  // half a metre thick, as long as that can be seen
-  canvas.lines(roof_lines(scene, layout.frame), panel, {35, 35, 35}, 0.6 * wall, 0.6);
-  canvas.lines(section(scene, layout.frame), panel, {25, 25, 25}, wall);
+  draw_buildings(canvas, scene, layout.frame, u);
   canvas.frame({panel.left - u, panel.top - u, panel.right + u, panel.bottom + u}, black, 2 * u);
   draw_x_axis(canvas, panel, layout.x_range, layout.x_ticks, "x, east (m)", size);
   draw_y_axis(canvas, panel, layout.y_range, layout.y_ticks, "y, north (m)", "y (m)", size);

@@ -36,6 +36,11 @@ struct MapFrame {
   }
 };
 
+/// Buildings on a map: what the plane of the receivers cuts, and the wedges above it. `unit`: scale of lines.
+void draw_buildings(Canvas& canvas, const Scene& scene, const MapFrame& frame, double unit);
+/// The triangle that marks a transmitter.
+void draw_transmitter(Canvas& canvas, PlotPoint at, double unit);
+
 struct MapPicture {
   Canvas canvas;
   MapFrame frame;

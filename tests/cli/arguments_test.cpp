@@ -134,7 +134,6 @@ TEST(Arguments, SlipsAreNamed) {
       {{"covrage", "a.toml"}, "covrage", "unknown verb", "coverage"},
       {{"a.toml"}, "a.toml", "no verb", "grimaldi coverage a.toml"},
       {{"--json", "coverage"}, "--json", "no verb", "coverage"},
-      {{"compare", "a.toml"}, "compare", "not in this version", "coverage"},
       {{"tradeoff"}, "tradeoff", "not in this version", ""},
       {{"validate", "--lst"}, "--lst", "unknown option", "--list"},
       {{"validate", "-o", ""}, "-o", "an empty name", ""},

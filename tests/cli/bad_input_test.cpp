@@ -354,7 +354,7 @@ TEST_F(BadInput, UnknownAbsorptionIsOneWarningForAllBands) {
 TEST_F(BadInput, WhatThisVersionLacks) {
   const std::string lacks = "not in this version";
   write("city.toml", scenario());
-  for (const char* verb : {"compare", "tradeoff", "report"}) {
+  for (const char* verb : {"tradeoff", "report"}) {
     refused({verb}, {verb, lacks, "known: coverage"});
     refused({verb, "city.toml", "-o", "x.out"}, {verb, lacks});
   }

@@ -35,7 +35,7 @@ TEST_F(Program, BadInputEndsWithOneAndSaysWhere) {
     std::vector<std::string> hints;
   } cases[] = {
       {{"cverage"}, {"did you mean coverage?"}},
-      {{"compare", "bad.toml"}, {"not in this version"}},
+      {{"tradeoff", "bad.toml"}, {"not in this version"}},
       {{"coverage", "absent.toml"}, {"absent.toml", "no such file"}},
       {{"coverage", "bad.toml"}, {"bad.toml:4: wave.frequency", "bad.toml:6: transmitter.0.position"}},
       {{"coverage", "--scene", "absent.xml"}, {"--scene absent.xml", "--frequency", "--tx"}},
