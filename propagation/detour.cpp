@@ -117,6 +117,9 @@ class Scout {
     }
   }
 
+  /// Rays asked so far, of either kind.
+  std::uint64_t shadow_rays() const { return shadow_rays_; }
+
  private:
   void sort_ways() {
     std::sort(ways_.begin(), ways_.end(), [](const WayAround& a, const WayAround& b) {
@@ -257,6 +260,7 @@ Discovered detours(const Scene& scene, const Tracer& tracer, const Plan& plan, s
           scouts[thread].lead_around(paths[i], proposals[block]);
       },
       stop);
+  for (const Scout& scout : scouts) found.shadow_rays += scout.shadow_rays();
   for (const auto& block : proposals)
     for (const Proposal& p : block) {
       const std::uint32_t sequence = found.sequences.enter(p.hash, {p.interactions.data(), p.size});

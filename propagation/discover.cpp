@@ -101,6 +101,7 @@ std::size_t Discovered::append(const Discovered& later) {
     blocked.push_back(path);
   }
   segments += later.segments;
+  shadow_rays += later.shadow_rays;
   merge_seconds += later.merge_seconds;
   return static_cast<std::size_t>(first);
 }

@@ -31,7 +31,7 @@ struct Discovered {
   std::vector<Seed> seeds;           ///< sorted by sequence, then cell; unique
   std::vector<BlockedPath> blocked;  ///< still to be led around what blocks them
   FluxLedger flux;                   ///< of the launched beams, shares of all
-  std::uint64_t rays = 0, segments = 0;
+  std::uint64_t rays = 0, segments = 0, shadow_rays = 0;
   double merge_seconds = 0;  ///< of one thread, uniting the blocks' records
 
   /// Adds what a later search of the same transmitter found: its new sequences get the numbers after the ones there

@@ -57,7 +57,7 @@ class Grower {
       std::uint32_t passes = 0;
       for (const Seed* seed = first; seed != last; ++seed) passes |= seed->passes;
       more.assign(first, last);
-      in_its_planes(sequence, work, more);
+      cells_of_its_mirrors(sequence, work, more);
       for (Seed& seed : more) seed.passes = passes;
       std::stable_sort(more.begin(), more.end(), [](const Seed& a, const Seed& b) { return a.cell < b.cell; });
       first = more.data();
@@ -89,7 +89,7 @@ class Grower {
   }
 
   /// Cells, one in each tile of 3 × 3, that a sequence of faces alone would reach if nothing stood in the way.
-  void in_its_planes(std::uint32_t sequence, Workspace& work, std::vector<Seed>& seeds) const {
+  void cells_of_its_mirrors(std::uint32_t sequence, Workspace& work, std::vector<Seed>& seeds) const {
     UnfoldedSequence unfolded(scene_, transmitter_.position, discovered_.sequences[sequence]);
     for (std::size_t y = 1; y < grid_.layout.ny; y += 3)
       for (std::size_t x = 1; x < grid_.layout.nx; x += 3) {

@@ -113,7 +113,7 @@ Result simulate(const Scene& scene, const Tracer& tracer, const Plan& asked, con
       figures.rays += discovered.rays;
       figures.segments += discovered.segments;
       figures.sequences += discovered.sequences.size();
-      figures.shadow_rays += grown.shadow_rays;
+      figures.shadow_rays += grown.shadow_rays + discovered.shadow_rays;
       figures.sequence_cell_pairs += grown.pairs.size();
       add_flux(figures.flux, discovered.flux, 1 / double(transmitters));
       if (plan.request.coverage && !stopped()) {
