@@ -237,7 +237,8 @@ Arguments parse_arguments(int argc, const char* const* argv, Diagnostics& diagno
 
   CLI::App& validate = *app.add_subcommand("validate", "how far the program is from the truth, case by case");
   validate.allow_extras();
-  validate.add_option("case", arguments.cases, "cases by name, part of a name, or suite (default: all)")
+  validate
+      .add_option("case", arguments.cases, "cases by name, part of a name between strokes, or suite (default: all)")
       ->type_name("CASE");
   std::string validate_output, validate_threads;
   validate.add_flag("--list", arguments.list, "name the cases");

@@ -106,16 +106,15 @@ EvalFunction wedge_exact_point() {
 }
 
 EvalFunction half_plane_exact() {
-  return {"half-plane-exact",
-          "Sommerfeld's half-plane under a plane wave",
-          {within("k_rho", "distance from the edge times k, rad", 0, 1e9),
-           angle("phi_deg", "direction of the point, from the half-plane"),
-           angle("phip_deg", "direction that the wave comes from")},
-          soft_hard,
-          "Incident wave e^{+j k rho cos(phi - phip)}.",
-          [](const EvalRow& row) {
-            return flat(half_plane_plane_wave(row.number(0), row.number(1), row.number(2), 180));
-          }};
+  return {
+      "half-plane-exact",
+      "Sommerfeld's half-plane under a plane wave",
+      {within("k_rho", "distance from the edge times k, rad", 0, 1e9),
+       angle("phi_deg", "direction of the point, from the half-plane"),
+       angle("phip_deg", "direction that the wave comes from")},
+      soft_hard,
+      "Incident wave e^{+j k rho cos(phi - phip)}.",
+      [](const EvalRow& row) { return flat(half_plane_plane_wave(row.number(0), row.number(1), row.number(2), 180)); }};
 }
 
 EvalFunction double_knife_edge() {
@@ -123,8 +122,8 @@ EvalFunction double_knife_edge() {
           "field behind two knife edges, paraxial",
           {positive("f_GHz", "frequency, GHz"), positive("d1_m", "transmitter to edge 1, m"),
            positive("d2_m", "edge 1 to edge 2, m"), positive("d3_m", "edge 2 to receiver, m"),
-           any_number("h1_m", "height of edge 1 above the straight line, m"),
-           any_number("h2_m", "height of edge 2 above the straight line, m")},
+           any_number("h1_m", "height of edge 1 above the straight line, m; Fresnel parameter up to 100"),
+           any_number("h2_m", "height of edge 2 above the straight line, m; likewise")},
           {"E_re", "E_im", "loss_exact_dB"},
           "E over the free field; loss = -20 lg |E|.",
           [](const EvalRow& row) {

@@ -18,7 +18,6 @@ namespace grimaldi {
 
 /// What one path brings to one point.
 struct Arrival {
-  std::uint32_t sequence = 0;
   SequenceHash hash = 0;
   std::span<const Interaction> interactions;
   PathGeometry geometry;

@@ -4,22 +4,17 @@
 #include <cmath>
 
 namespace grimaldi {
-namespace {
 
-/// A vertex of the path as rays see it: an edge's is moved out of the solid.
-Vec3 vertex(const Scene& scene, const Tracer& tracer, std::span<const Interaction> interactions,
-            const PathGeometry& geometry, std::size_t i) {
+Vec3 seen_point(const Scene& scene, const Tracer& tracer, std::span<const Interaction> interactions,
+                const PathGeometry& geometry, std::size_t i) {
   if (i == 0 || i + 1 == geometry.count || !is_edge(interactions[i - 1])) return geometry.points[i];
   const Wedge& wedge = scene.wedges.wedges[index_of(interactions[i - 1])];
   return geometry.points[i] + 3 * tracer.surface_gap() * wedge.bisector();
 }
 
-/// The face at point i of the path; no_index for an edge or an end.
 std::uint32_t face_at(std::span<const Interaction> interactions, std::size_t i) {
   return i > 0 && i <= interactions.size() && !is_edge(interactions[i - 1]) ? interactions[i - 1] : no_index;
 }
-
-}  // namespace
 
 std::optional<std::size_t> blocked_leg(const Scene& scene, const Tracer& tracer,
                                        std::span<const Interaction> interactions, const PathGeometry& geometry,
@@ -27,8 +22,8 @@ std::optional<std::size_t> blocked_leg(const Scene& scene, const Tracer& tracer,
   const double gap = tracer.surface_gap();
   // The last leg first: it is the one that most often ends in a wall.
   for (std::size_t leg = geometry.count - 1; leg-- > 0;) {
-    const Vec3 from = vertex(scene, tracer, interactions, geometry, leg);
-    const Vec3 to = vertex(scene, tracer, interactions, geometry, leg + 1);
+    const Vec3 from = seen_point(scene, tracer, interactions, geometry, leg);
+    const Vec3 to = seen_point(scene, tracer, interactions, geometry, leg + 1);
     ++shadow_rays;
     const std::uint32_t target = face_at(interactions, leg + 1);
     if (target == no_index) {

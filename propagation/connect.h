@@ -17,6 +17,13 @@ std::optional<std::size_t> blocked_leg(const Scene& scene, const Tracer& tracer,
                                        std::span<const Interaction> interactions, const PathGeometry& geometry,
                                        std::uint64_t& shadow_rays);
 
+/// Point i of a path as rays see it: an edge's is moved 3 `surface_gap()` out along the bisector of its exterior.
+Vec3 seen_point(const Scene& scene, const Tracer& tracer, std::span<const Interaction> interactions,
+                const PathGeometry& geometry, std::size_t i);
+
+/// The face at point i of a path; no_index for an edge or an end.
+std::uint32_t face_at(std::span<const Interaction> interactions, std::size_t i);
+
 /// True if no leg is blocked.
 inline bool connected(const Scene& scene, const Tracer& tracer, std::span<const Interaction> interactions,
                       const PathGeometry& geometry, std::uint64_t& shadow_rays) {

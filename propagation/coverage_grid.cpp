@@ -137,7 +137,7 @@ void add_outdoors(const GridLayout& grid, int n, bool edge, std::vector<SubPoint
 }  // namespace
 
 int edge_sub_points_a_side(const PlanDescription& request) {
-  if (!request.diffraction || request.max_diffractions == 0 || request.depth == 0) return 0;
+  if (most_edges(request) == 0) return 0;
   return std::clamp(static_cast<int>(std::lround(2 * std::cbrt(request.rays / 1e6))), 2, 5);
 }
 

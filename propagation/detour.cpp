@@ -90,8 +90,8 @@ class Scout {
     const std::size_t edges_before = count_edges(interactions.first(path.leg)), edges = count_edges(interactions) + 1;
     std::array<double, max_edges> along{};
     for (std::size_t i = 0; i + 1 < edges; ++i) along[i + (i >= edges_before)] = geometry_.edges[i].along;
-    const bool may_go_on = static_cast<int>(child.size()) < plan_.request.depth &&
-                           static_cast<int>(edges) < plan_.request.max_diffractions;
+    const bool may_go_on =
+        static_cast<int>(child.size()) < plan_.request.depth && static_cast<int>(edges) < most_edges(plan_.request);
     int tried = 0, free = 0, blocked = 0;
     for (const WayAround& way : ways_) {
       if (free == free_detours) break;
@@ -121,32 +121,40 @@ class Scout {
   std::uint64_t shadow_rays() const { return shadow_rays_; }
 
  private:
-  void sort_ways() {
+  /// Edges of what stands in the leg and of the patches next to that, shortest way around first.
+  void gather_ways(std::span<const Interaction> interactions, std::size_t leg) {
+    const Vec3 start = end_of_leg(interactions, leg), end = end_of_leg(interactions, leg + 1);
+    const std::uint32_t at_start = face_at(interactions, leg), at_end = face_at(interactions, leg + 1);
+    patches_.clear();
+    gather_blockers(start, end, at_start, at_end);
+    gather_blockers(end, start, at_end, at_start);
+    keep_distinct(patches_);
+    const std::size_t blocking = patches_.size();
+    for (std::size_t i = 0; i < blocking; ++i)
+      for (const std::uint32_t rim : rims_.of(patches_[i])) {
+        patches_.push_back(scene_.wedges.wedges[rim].patch0);
+        patches_.push_back(scene_.wedges.wedges[rim].patchn);
+      }
+    keep_distinct(patches_);
+    rims_found_.clear();
+    for (const std::uint32_t patch : patches_)
+      for (const std::uint32_t rim : rims_.of(patch)) rims_found_.push_back(rim);
+    keep_distinct(rims_found_);
+    ways_.clear();
+    const auto [from, to] = unfolded_leg(interactions, leg);
+    for (const std::uint32_t rim : rims_found_) add(rim, from, to);
     std::sort(ways_.begin(), ways_.end(), [](const WayAround& a, const WayAround& b) {
       return std::tie(a.length, a.wedge) < std::tie(b.length, b.wedge);
     });
-    ways_.erase(
-        std::unique(ways_.begin(), ways_.end(), [](const auto& a, const auto& b) { return a.wedge == b.wedge; }),
-        ways_.end());
   }
 
-  /// Edges of what stands in the leg, shortest way around first.
-  void gather_ways(std::span<const Interaction> interactions, std::size_t leg) {
-    ways_.clear();
-    const auto [from, to] = unfolded_leg(interactions, leg);
-    const Vec3 start = seen_point(interactions, leg), end = seen_point(interactions, leg + 1);
-    gather_blockers(start, end, face_before(interactions, leg), face_before(interactions, leg + 1), from, to);
-    gather_blockers(end, start, face_before(interactions, leg + 1), face_before(interactions, leg), from, to);
-    sort_ways();
+  static void keep_distinct(std::vector<std::uint32_t>& numbers) {
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   }
 
-  /// The face at point i of the path; no_index for an edge or an end.
-  static std::uint32_t face_before(std::span<const Interaction> interactions, std::size_t i) {
-    return i > 0 && i <= interactions.size() && !is_edge(interactions[i - 1]) ? interactions[i - 1] : no_index;
-  }
-
-  void gather_blockers(const Vec3& start, const Vec3& end, std::uint32_t leave, std::uint32_t target, const Vec3& from,
-                       const Vec3& to) {
+  /// The patches met first from `start` on.
+  void gather_blockers(const Vec3& start, const Vec3& end, std::uint32_t leave, std::uint32_t target) {
     const double length = distance(start, end);
     const Vec3 direction = (end - start) / length;
     double travelled = 0;
@@ -156,20 +164,17 @@ class Scout {
       if (hit.triangle == no_index || travelled + hit.distance > length) break;
       travelled += hit.distance;
       const std::uint32_t patch = scene_.patches.triangle_patch[hit.triangle];
-      if (patch != target) gather(patch, from, to);
+      if (patch != target) patches_.push_back(patch);
       leave = patch;
     }
   }
 
   /// Point i of the path; a mirror's point beside its face is taken at the face's border.
-  Vec3 seen_point(std::span<const Interaction> interactions, std::size_t i) const {
-    const Vec3 point = geometry_.points[i];
-    if (i == 0 || i > interactions.size()) return point;
-    if (is_edge(interactions[i - 1])) {
-      const Wedge& wedge = scene_.wedges.wedges[index_of(interactions[i - 1])];
-      return point + 3 * tracer_.surface_gap() * wedge.bisector();
-    }
-    const Patch& patch = scene_.patches.patches[interactions[i - 1]];
+  Vec3 end_of_leg(std::span<const Interaction> interactions, std::size_t i) const {
+    const Vec3 point = seen_point(scene_, tracer_, interactions, geometry_, i);
+    const std::uint32_t face = face_at(interactions, i);
+    if (face == no_index) return point;
+    const Patch& patch = scene_.patches.patches[face];
     return {std::clamp(point.x, patch.low.x, patch.high.x), std::clamp(point.y, patch.low.y, patch.high.y),
             std::clamp(point.z, patch.low.z, patch.high.z)};
   }
@@ -185,23 +190,9 @@ class Scout {
     return {points[leg] - before * direction, points[leg + 1] + after * direction};
   }
 
-  void gather(std::uint32_t patch, const Vec3& from, const Vec3& to) {
-    for (const std::uint32_t rim : rims_.of(patch)) {
-      add(rim, from, to);
-      const Wedge& wedge = scene_.wedges.wedges[rim];
-      const std::uint32_t next = wedge.patch0 == patch ? wedge.patchn : wedge.patch0;
-      if (next == patch) continue;
-      for (const std::uint32_t further : rims_.of(next)) add(further, from, to);
-    }
-  }
-
   void add(std::uint32_t wedge_index, const Vec3& from, const Vec3& to) {
     const Wedge& wedge = scene_.wedges.wedges[wedge_index];
-    const Vec3 a = from - wedge.start, b = to - wedge.start;
-    const double za = dot(a, wedge.direction), zb = dot(b, wedge.direction);
-    const double ra = norm(a - za * wedge.direction), rb = norm(b - zb * wedge.direction);
-    if (!(ra + rb > 0)) return;
-    const double along = std::clamp((za * rb + zb * ra) / (ra + rb), 0.0, wedge.length);
+    const double along = std::clamp(crossing(wedge.start, wedge.direction, from, to), 0.0, wedge.length);
     const Vec3 corner = wedge.point(along);
     if (!leads_outside(wedge, from - corner) || !leads_outside(wedge, to - corner)) return;
     ways_.push_back({wedge_index, along, distance(from, corner) + distance(corner, to)});
@@ -217,18 +208,10 @@ class Scout {
   const PatchRims& rims_;
   const double wavelength_, unit_gain_;
   PathGeometry geometry_;
+  std::vector<std::uint32_t> patches_, rims_found_;
   std::vector<WayAround> ways_;
   std::uint64_t shadow_rays_ = 0;
 };
-
-/// The first of the paths of each group, in the order of `key`.
-template <typename Path, typename Key>
-void keep_one_of_each(std::vector<Path>& paths, const Key& key) {
-  std::sort(paths.begin(), paths.end(),
-            [&](const Path& a, const Path& b) { return std::tuple(key(a), a.cell) < std::tuple(key(b), b.cell); });
-  paths.erase(std::unique(paths.begin(), paths.end(), [&](const Path& a, const Path& b) { return key(a) == key(b); }),
-              paths.end());
-}
 
 }  // namespace
 
@@ -243,9 +226,16 @@ Discovered detours(const Scene& scene, const Tracer& tracer, const Plan& plan, s
         static_cast<int>(count_edges(interactions)) < most_edges)
       paths.push_back(path);
   }
-  keep_one_of_each(paths, [&](const BlockedPath& path) {
+  // One of each sequence, leg and tile.
+  const auto key = [&](const BlockedPath& path) {
     return std::tuple(path.sequence, path.leg, tile_of(path.cell, grid.layout));
+  };
+  std::sort(paths.begin(), paths.end(), [&](const BlockedPath& a, const BlockedPath& b) {
+    return std::tuple(key(a), a.cell, a.point) < std::tuple(key(b), b.cell, b.point);
   });
+  paths.erase(std::unique(paths.begin(), paths.end(),
+                          [&](const BlockedPath& a, const BlockedPath& b) { return key(a) == key(b); }),
+              paths.end());
   const PatchRims rims(scene);
   const unsigned threads = plan.request.threads ? plan.request.threads : hardware_threads();
   std::vector<Scout> scouts;

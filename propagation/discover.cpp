@@ -135,7 +135,7 @@ Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, 
     const double spacing = std::sqrt(4 * pi / double(count));
     const std::uint64_t blocks = (count + block_size - 1) / block_size;
     // One beam to edges for 8 launched, at least one to each wedge, or to as many wedges as there are rays in the pass.
-    const std::uint64_t wedges = request.diffraction && request.max_diffractions > 0 ? scene.wedges.wedges.size() : 0;
+    const std::uint64_t wedges = most_edges(request) > 0 ? scene.wedges.wedges.size() : 0;
     const std::uint64_t aimed = wedges == 0
                                     ? 0
                                     : std::min(wedges, count) * std::max<std::uint64_t>(1, count / (8 * wedges)),

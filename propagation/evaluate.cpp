@@ -107,7 +107,6 @@ class CellEvaluator {
   /// The wave of pair number p at a point; false if it does not get there.
   bool arrive(const Vec3& point, const Pair& pair, std::size_t p, Arrival& arrival) {
     if (!unfolded_[p].solve(point, wavelength_, arrival.geometry)) return false;
-    arrival.sequence = pair.sequence;
     arrival.hash = discovered_.sequences.hash(pair.sequence);
     arrival.interactions = discovered_.sequences[pair.sequence];
     arrival.field.resize(plan_.bands());

@@ -17,7 +17,9 @@ namespace grimaldi {
 CoverageMap empty_map(const Plan& plan, const CoverageGrid& grid);
 
 /// Fills transmitter `transmitter` of `map`.
-/// * path_gain = Σ w_i Σ_paths |h|² over the cell's sub-points i, times 1 + interference/power over the points of
+/// * path_gain = Σ w_i Σ_paths |h|² over the cell's sub-points i (fine ones for paths without an edge, dense ones for
+/// the
+///   refined paths, coarse ones for the others), times 1 + interference/power over the points of
 /// edges;
 ///   layers by `mechanism_of`; delays weighted by the power of the paths.
 /// * standard_error² = passes + sub-points. Passes (jackknife, one of B left out): with u_i the gain that pass i alone

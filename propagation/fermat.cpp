@@ -18,19 +18,18 @@ constexpr double last_step = 1e-5;
 /// Beyond an end of an edge its wave is kept while v_V is below this (physics: line 6 of the edge's law).
 constexpr double end_parameter_limit = 3;
 
-/// Where a path over one edge passes it.
-double closed_form(const Vec3& start, const Vec3& direction, const Vec3& a, const Vec3& b) {
-  const Vec3 pa = a - start, pb = b - start;
-  const double za = dot(pa, direction), zb = dot(pb, direction);
-  const double ra = norm(pa - za * direction), rb = norm(pb - zb * direction);
-  return ra + rb > 0 ? (za * rb + zb * ra) / (ra + rb) : 0.5 * (za + zb);
-}
-
 Vec3 mirrored_direction(const Vec3& direction, const Patch& patch) {
   return direction - 2 * dot(direction, patch.normal) * patch.normal;
 }
 
 }  // namespace
+
+double crossing(const Vec3& start, const Vec3& direction, const Vec3& a, const Vec3& b) {
+  const Vec3 pa = a - start, pb = b - start;
+  const double za = dot(pa, direction), zb = dot(pb, direction);
+  const double ra = norm(pa - za * direction), rb = norm(pb - zb * direction);
+  return ra + rb > 0 ? (za * rb + zb * ra) / (ra + rb) : 0.5 * (za + zb);
+}
 
 Vec3 mirrored(const Vec3& point, const Patch& patch) {
   return point - 2 * (dot(point, patch.normal) - patch.offset) * patch.normal;
@@ -95,8 +94,8 @@ void UnfoldedSequence::begin_at(std::span<const double> along) {
 bool UnfoldedSequence::two_fermat_points(const Vec3& receiver, double& along1, double& along2) {
   if (!has_last_) {
     // Each edge for itself between the ends.
-    const double along = closed_form(edges_[0].start, edges_[0].direction, image_, receiver);
-    look_from(along, closed_form(edges_[1].start, edges_[1].direction, edges_[0].point(along), receiver));
+    const double along = crossing(edges_[0].start, edges_[0].direction, image_, receiver);
+    look_from(along, crossing(edges_[1].start, edges_[1].direction, edges_[0].point(along), receiver));
   }
   const UnfoldedEdge& second = edges_[1];
   const Vec3 way = receiver - second.point(pair_.from2);
@@ -153,7 +152,7 @@ bool UnfoldedSequence::two_fermat_points(const Vec3& receiver, double& along1, d
 
 bool UnfoldedSequence::fermat_points(const Vec3& receiver, std::array<double, max_edges>& along) {
   if (edge_count_ == 1) {
-    along[0] = closed_form(edges_[0].start, edges_[0].direction, image_, receiver);
+    along[0] = crossing(edges_[0].start, edges_[0].direction, image_, receiver);
     return true;
   }
   if (edge_count_ == 2) return two_fermat_points(receiver, along[0], along[1]);
@@ -164,7 +163,7 @@ bool UnfoldedSequence::fermat_points(const Vec3& receiver, std::array<double, ma
       break;
     }
     const Vec3 before = i == 0 ? image_ : edges_[i - 1].point(along[i - 1]);
-    along[i] = closed_form(edges_[i].start, edges_[i].direction, before, receiver);
+    along[i] = crossing(edges_[i].start, edges_[i].direction, before, receiver);
   }
   struct Way {
     std::array<Vec3, max_edges + 2> vertex;

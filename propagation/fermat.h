@@ -12,9 +12,6 @@
 
 namespace grimaldi {
 
-/// Edges along one path at the most.
-inline constexpr std::size_t max_edges = 8;
-
 /// How a path passes one edge, in lengths and angles that mirrors do not change.
 struct EdgePassage {
   std::uint32_t wedge = no_index;
@@ -95,6 +92,11 @@ class UnfoldedSequence {
   std::array<double, max_edges> last_{};  ///< where Newton ended
   bool has_last_ = false;
 };
+
+/// Where the shortest way from a to b over the line start + t direction crosses it: t, m.
+/// Formula: (z_a r_b + z_b r_a)/(r_a + r_b), axial and radial coordinates about the line (its two half-planes
+/// unfolded).
+double crossing(const Vec3& start, const Vec3& direction, const Vec3& a, const Vec3& b);
 
 /// `point` mirrored in the plane of `patch`.
 Vec3 mirrored(const Vec3& point, const Patch& patch);

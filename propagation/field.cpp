@@ -128,8 +128,8 @@ struct EdgeWaves {
   Complex incident, face0, facen;
 };
 
-EdgeWaves edge_waves(DiffractionModel model, const Wedge& wedge, const EdgePassage& passage, double effective,
-                     double wavenumber) {
+EdgeWaves edge_waves(DiffractionModel model, bool faces, const Wedge& wedge, const EdgePassage& passage,
+                     double effective, double wavenumber) {
   if (model == DiffractionModel::utd) {
     const double phase = wavenumber * effective * passage.sin_beta * passage.sin_beta;
     const auto waves = wedge_waves(wedge.exterior_angle, passage.phi_in, passage.phi_out, {phase, phase, phase, phase},
@@ -143,7 +143,8 @@ EdgeWaves edge_waves(DiffractionModel model, const Wedge& wedge, const EdgePassa
     // On the boundary itself the way past the edge counts as free, as shadow rays have it.
     return edge_wave(fresnel_parameter(effective, 2 * pi / wavenumber, passage.sin_beta, epsilon), epsilon > 0);
   };
-  return {wave(Boundary::incident), wave(Boundary::face0), wave(Boundary::facen)};
+  if (!faces) return {wave(Boundary::incident), 0, 0};
+  return {wave(Boundary::incident), wave(Boundary::face0), wedge.free_rim ? 0 : wave(Boundary::facen)};
 }
 
 /// True if the faces of an edge have waves of their own.
@@ -235,7 +236,7 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
         effective = passage.s_out * (radius + passage.s_out) * front.radius1 * front.radius2 /
                     (radius * (front.radius1 + passage.s_out) * (front.radius2 + passage.s_out));
       }
-      const EdgeWaves u = edge_waves(plan.request.diffraction_model, wedge, passage, effective, wavenumber);
+      const EdgeWaves u = edge_waves(plan.request.diffraction_model, faces, wedge, passage, effective, wavenumber);
       Complex weight = end_weight(wedge, passage, wavelength, wavenumber);
       if (i > 0 && is_edge(interactions[i - 1]) && grazes_common_face(scene, geometry.edges[edge_number - 1], passage))
         weight *= 0.5;

@@ -130,8 +130,8 @@ class Grower {
   enum class Answer { arrives, blocked, negligible };
 
   bool may_be_led_around(std::span<const Interaction> interactions) const {
-    return plan_.request.diffraction && static_cast<int>(interactions.size()) < plan_.request.depth &&
-           static_cast<int>(count_edges(interactions)) < plan_.request.max_diffractions;
+    return static_cast<int>(interactions.size()) < plan_.request.depth &&
+           static_cast<int>(count_edges(interactions)) < most_edges(plan_.request);
   }
 
   static BlockedPath blocked_path(const Pair& pair, std::size_t leg, std::size_t point) {
@@ -176,15 +176,11 @@ class Grower {
   }
 
   void ask_neighbours(std::uint32_t cell, Workspace& work) const {
-    const std::size_t nx = grid_.layout.nx, ny = grid_.layout.ny;
-    const std::size_t x = cell % nx, y = cell / nx;
-    for (std::size_t j = y > 0 ? y - 1 : y; j <= std::min(y + 1, ny - 1); ++j)
-      for (std::size_t i = x > 0 ? x - 1 : x; i <= std::min(x + 1, nx - 1); ++i) {
-        const auto neighbour = static_cast<std::uint32_t>(j * nx + i);
-        if (work.visited[neighbour] == work.growth) continue;
-        work.visited[neighbour] = work.growth;
-        work.frontier.push_back(neighbour);
-      }
+    grid_.layout.each_near(cell, [&](std::size_t neighbour) {
+      if (work.visited[neighbour] == work.growth) return;
+      work.visited[neighbour] = work.growth;
+      work.frontier.push_back(static_cast<std::uint32_t>(neighbour));
+    });
   }
 
   const Scene& scene_;
@@ -214,12 +210,8 @@ void in_blocks(std::size_t blocks, unsigned threads, std::vector<Workspace>& spa
 /// The cells marked and the eight around each.
 std::vector<std::uint8_t> with_neighbours(const std::vector<std::uint8_t>& marked, const GridLayout& layout) {
   std::vector<std::uint8_t> all(marked.size(), 0);
-  for (std::size_t y = 0; y < layout.ny; ++y)
-    for (std::size_t x = 0; x < layout.nx; ++x) {
-      if (!marked[y * layout.nx + x]) continue;
-      for (std::size_t j = y > 0 ? y - 1 : y; j <= std::min(y + 1, layout.ny - 1); ++j)
-        for (std::size_t i = x > 0 ? x - 1 : x; i <= std::min(x + 1, layout.nx - 1); ++i) all[j * layout.nx + i] = 1;
-    }
+  for (std::size_t cell = 0; cell < marked.size(); ++cell)
+    if (marked[cell]) layout.each_near(cell, [&](std::size_t near) { all[near] = 1; });
   return all;
 }
 
@@ -241,9 +233,6 @@ std::vector<SeededSequence> seeded_sequences(const std::vector<Seed>& seeds) {
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.stage < b.stage; });
   return found;
 }
-
-/// Sorted by cell, then sequence.
-bool comes_before(const Pair& a, const Pair& b) { return a.cell != b.cell ? a.cell < b.cell : a.sequence < b.sequence; }
 
 /// The seeds from number `first` on without those whose pairs there are: these pairs were found by their passes too.
 std::vector<Seed> unasked(const std::vector<Seed>& seeds, std::size_t first, std::vector<Pair>& pairs) {
@@ -274,7 +263,7 @@ void grow(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_
   const auto learn = [&](std::size_t from) {
     for (std::size_t i = from; i < grown.pairs.size(); ++i) known[grown.pairs[i].cell] += grown.pairs[i].power;
   };
-  if (plan.request.direct && first_growth) {
+  if (first_growth) {
     // A few points of each cell first; all of them where one of those, or a neighbour's, sees the transmitter.
     const std::size_t cells = grid.layout.size(), blocks = (cells + cells_per_block - 1) / cells_per_block;
     std::vector<std::uint8_t> near(cells, 0);
@@ -288,7 +277,10 @@ void grow(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_
         [&](std::uint32_t cell, Workspace&, BlockPairs& out) { near[cell] = grower.sees_transmitter(cell, out); });
     near = with_neighbours(near, grid.layout);
     each_cell([&](std::uint32_t cell, Workspace& work, BlockPairs& out) {
-      near[cell] ? grower.direct(cell, work, out) : grower.direct_blocked(cell, out);
+      if (!near[cell])
+        grower.direct_blocked(cell, out);
+      else if (plan.request.direct)
+        grower.direct(cell, work, out);
     });
     learn(0);
   }

@@ -24,6 +24,11 @@ struct Pair {
   bool refined = false;     ///< its power is that over the dense points, in place of the coarse ones
 };
 
+/// The order of pairs: by cell, then sequence.
+inline bool comes_before(const Pair& a, const Pair& b) {
+  return a.cell != b.cell ? a.cell < b.cell : a.sequence < b.sequence;
+}
+
 struct Grown {
   std::vector<Pair> pairs;           ///< sorted by cell, then sequence
   std::vector<BlockedPath> blocked;  ///< of the last growth: paths with room for one more edge
@@ -38,7 +43,8 @@ inline constexpr double negligible_share = 1e-3;
 
 /// Grows sequences from the seeds of `discovered` from number `first_seed` on (sorted by sequence, then cell) and adds
 /// them to `grown`, strongest first by the seeds' estimate, in stages of 10 dB: a stage knows the power that the ones
-/// before it brought to each cell (`negligible_share`). In the first growth the empty sequence asks every cell. Cells
+/// before it brought to each cell (`negligible_share`). In the first growth the empty sequence asks every
+/// cell (a plan without the direct wave: to note where it is blocked). Cells
 /// wholly inside a solid are not asked. Independent of the number of threads.
 void grow(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter, const CoverageGrid& grid,
           const Discovered& discovered, std::size_t first_seed, Grown& grown,

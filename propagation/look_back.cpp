@@ -94,7 +94,7 @@ void look_back(const Scene& scene, const Tracer& tracer, const Plan& plan, std::
   std::vector<std::uint32_t> cells;
   for (std::uint32_t cell = 0; cell < grid.layout.size(); ++cell)
     if (!grid.of(cell).empty()) cells.push_back(cell);
-  if (cells.empty() || !request.reflection || !request.diffraction) return;
+  if (cells.empty() || !request.reflection || most_edges(request) == 0) return;
   const Viewer viewer(scene, tracer, plan, request.transmitters[transmitter].position, grid);
   const unsigned threads = request.threads ? request.threads : hardware_threads();
   const auto passes = static_cast<std::uint64_t>(request.passes);

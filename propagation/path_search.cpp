@@ -10,8 +10,13 @@ namespace grimaldi {
 void grow_and_lead_around(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
                           const CoverageGrid& grid, std::size_t first_seed, int most_edges, Discovered& discovered,
                           Grown& grown, const std::function<void(double)>& progress, const std::atomic<bool>* stop) {
-  for (bool more = true; more && !(stop && *stop);) {
-    grow(scene, tracer, plan, transmitter, grid, discovered, first_seed, grown, progress, stop);
+  // How many rounds there will be is not known: each is told as half of what was left.
+  double done = 0;
+  const auto report = [&](double share) {
+    if (progress) progress(done + 0.5 * share * (1 - done));
+  };
+  for (bool more = true; more && !(stop && *stop); done += 0.5 * (1 - done)) {
+    grow(scene, tracer, plan, transmitter, grid, discovered, first_seed, grown, report, stop);
     auto& blocked = discovered.blocked;
     blocked.insert(blocked.end(), grown.blocked.begin(), grown.blocked.end());
     const Discovered found = detours(scene, tracer, plan, transmitter, grid, discovered, grown.known, most_edges, stop);
@@ -24,10 +29,9 @@ void grow_and_lead_around(const Scene& scene, const Tracer& tracer, const Plan& 
 }
 
 SequenceTable search_for_point(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
-                               const Vec3& point, double power, const SequenceTable& known,
+                               const Vec3& point, double power, const SequenceTable& known, std::uint64_t& shadow_rays,
                                const std::atomic<bool>* stop) {
   const PlanDescription& request = plan.request;
-  const int most_edges = std::min(request.depth, request.max_diffractions);
   CoverageGrid spot;
   spot.layout.nx = spot.layout.ny = 1;
   spot.layout.cell = 1;
@@ -47,7 +51,8 @@ SequenceTable search_for_point(const Scene& scene, const Tracer& tracer, const P
   std::sort(here.seeds.begin(), here.seeds.end(), [](const Seed& a, const Seed& b) { return a.sequence < b.sequence; });
   Grown grown;
   grown.known = {power};
-  grow_and_lead_around(scene, tracer, plan, transmitter, spot, 0, most_edges, here, grown, {}, stop);
+  grow_and_lead_around(scene, tracer, plan, transmitter, spot, 0, most_edges(request), here, grown, {}, stop);
+  shadow_rays += grown.shadow_rays + here.shadow_rays;
   SequenceTable found;
   for (std::size_t i = 0; i < here.sequences.size(); ++i)
     if (known.find(here.sequences.hash(i)) == SequenceTable::no_sequence)

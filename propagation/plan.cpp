@@ -10,6 +10,7 @@
 #include "core/quantity.h"
 #include "propagation/coverage_grid.h"
 #include "propagation/result.h"
+#include "propagation/sequence.h"
 #include "propagation/tracer.h"
 
 namespace grimaldi {
@@ -190,6 +191,10 @@ Plan make_plan(const PlanDescription& description, const Scene& scene, const Tra
           fmt::format("z = {:g} m, the lowest surface is at {:g} m", receiver.position.z, scene.ground));
   }
   return plan;
+}
+
+int most_edges(const PlanDescription& request) {
+  return request.diffraction ? std::min({request.depth, request.max_diffractions, static_cast<int>(max_edges)}) : 0;
 }
 
 }  // namespace grimaldi

@@ -1,6 +1,7 @@
 #pragma once
 // Everything a run needs, checked once against the scene, const from then on.
 
+#include <algorithm>
 #include <complex>
 #include <cstddef>
 #include <vector>
@@ -27,6 +28,13 @@ struct GridLayout {
   double cell = 1;        ///< side, m
   double z = 0;           ///< height of the receivers above local zero, m
   std::size_t size() const { return nx * ny; }
+  /// act(cell) for the cell and the up to eight around it, in the order of their numbers.
+  template <typename Act>
+  void each_near(std::size_t cell_index, const Act& act) const {
+    const std::size_t x = cell_index % nx, y = cell_index / nx;
+    for (std::size_t j = y > 0 ? y - 1 : y; j <= std::min(y + 1, ny - 1); ++j)
+      for (std::size_t i = x > 0 ? x - 1 : x; i <= std::min(x + 1, nx - 1); ++i) act(j * nx + i);
+  }
   Vec3 centre(std::size_t cell_index) const {
     return {x0 + (double(cell_index % nx) + 0.5) * cell, y0 + (double(cell_index / nx) + 0.5) * cell, z};
   }
@@ -43,6 +51,10 @@ struct Plan {
   std::size_t bands() const { return frequency.size(); }
   std::size_t polarisations() const { return request.kind == WaveKind::radio ? 2 : 1; }
 };
+
+/// Edges along one path at the most: the depth, what the plan allows and what a path can hold (`max_edges`); 0 without
+/// diffraction.
+int most_edges(const PlanDescription& request);
 
 /// Checks `description` against `scene` and works out the above. Errors to `diagnostics`: a transmitter inside a solid,
 /// a material that knows nothing of a frequency, a grid that cannot fit in memory (more than `memory_limit` bytes for

@@ -60,7 +60,6 @@ void add_arrivals(const Scene& scene, const Tracer& tracer, const Plan& plan, co
           UnfoldedSequence unfolded(scene, transmitter.position, interactions);
           if (!unfolded.solve(position, wavelength, arrival.geometry)) continue;
           if (!connected(scene, tracer, interactions, arrival.geometry, found[block].shadow_rays)) continue;
-          arrival.sequence = static_cast<std::uint32_t>(s);
           arrival.hash = sequences.hash(s);
           arrival.interactions = interactions;
           arrival.field.resize(plan.bands());
@@ -171,10 +170,11 @@ std::uint64_t connect_receivers(const Scene& scene, const Tracer& tracer, const 
     std::vector<Arrival> arrivals;
     add_arrivals(scene, tracer, plan, source, receiver.position, sequences, arrivals, shadow_rays, stop);
     SequenceTable around;
-    if (plan.request.diffraction && plan.request.max_diffractions > 0 && plan.request.depth > 0) {
+    if (most_edges(plan.request) > 0) {
       double power = 0;
       for (const Arrival& arrival : arrivals) power += received_power(arrival.field[0], Polarisation::both);
-      around = search_for_point(scene, tracer, plan, transmitter, receiver.position, power, sequences, stop);
+      around =
+          search_for_point(scene, tracer, plan, transmitter, receiver.position, power, sequences, shadow_rays, stop);
       add_arrivals(scene, tracer, plan, source, receiver.position, around, arrivals, shadow_rays, stop);
     }
     if (stop && *stop) break;

@@ -13,8 +13,6 @@ namespace {
 constexpr double strong_share = 0.05, strong_next_door = 0.2;
 constexpr std::size_t cells_per_block = 64;
 
-bool comes_before(const Pair& a, const Pair& b) { return a.cell != b.cell ? a.cell < b.cell : a.sequence < b.sequence; }
-
 /// What a block of cells adds.
 struct Added {
   std::vector<Pair> pairs;
@@ -49,7 +47,8 @@ class Refiner {
       pair.dense = ask(cell, pair.sequence, geometry, added.shadow_rays);
     }
     const std::size_t first_added = added.pairs.size();
-    each_neighbour(cell, [&](std::size_t neighbour) {
+    grid_.layout.each_near(cell, [&](std::size_t neighbour) {
+      if (neighbour == cell) return;
       for (std::size_t i = begins_[neighbour]; i < begins_[neighbour + 1]; ++i) {
         const Pair& pair = grown_.pairs[i];
         if (!has_edge_[pair.sequence] || pair.power < strong_next_door * power) continue;
@@ -82,14 +81,6 @@ class Refiner {
           connected(scene_, tracer_, interactions, geometry, shadow_rays))
         arrives |= std::uint64_t(1) << i;
     return arrives;
-  }
-
-  template <typename Act>
-  void each_neighbour(std::size_t cell, const Act& act) const {
-    const std::size_t nx = grid_.layout.nx, ny = grid_.layout.ny, x = cell % nx, y = cell / nx;
-    for (std::size_t j = y > 0 ? y - 1 : y; j <= std::min(y + 1, ny - 1); ++j)
-      for (std::size_t i = x > 0 ? x - 1 : x; i <= std::min(x + 1, nx - 1); ++i)
-        if (j != y || i != x) act(j * nx + i);
   }
 
   const Scene& scene_;

@@ -16,6 +16,8 @@ constexpr Interaction edge_interaction(std::uint32_t wedge) { return wedge | edg
 
 /// Interactions along one path at the most.
 inline constexpr std::size_t max_depth = 32;
+/// Edges among them at the most.
+inline constexpr std::size_t max_edges = 8;
 
 /// Name of a sequence: 64 bits that depend on its interactions in order; the empty one has `empty_sequence`.
 using SequenceHash = std::uint64_t;

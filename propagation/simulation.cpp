@@ -81,11 +81,10 @@ Result simulate(const Scene& scene, const Tracer& tracer, const Plan& asked, con
       Grown grown;
       // Paths of at most one edge first; then, where it is known what they bring, those of more. What stands in the way
       // of a path is gone around by one more edge.
-      const int most_edges = plan.request.diffraction ? std::min(plan.request.depth, plan.request.max_diffractions) : 0;
-      const bool twice = plan.request.coverage && most_edges > 1;
+      const bool twice = plan.request.coverage && most_edges(plan.request) > 1;
       for (int search = 0; search < (twice ? 2 : 1) && !stopped(); ++search) {
         const double from = twice ? 0.3 * search : 0, size = twice ? 0.3 + 0.2 * search : 0.8;
-        const int most = twice && search == 0 ? 1 : most_edges;
+        const int most = twice && search == 0 ? 1 : most_edges(plan.request);
         std::size_t first_seed = 0;
         {
           const StageClock stage(figures.discover_seconds);

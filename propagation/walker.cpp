@@ -89,7 +89,7 @@ class Walker::Walk {
         tracer_(tracer),
         plan_(plan),
         search_(search),
-        most_edges_(std::min({plan.request.max_diffractions, search.most_edges, static_cast<int>(max_edges)})),
+        most_edges_(std::min(most_edges(plan.request), search.most_edges)),
         reflectance_(reflectance),
         rims_(rims),
         keep_all_(!plan.request.receivers.empty()),

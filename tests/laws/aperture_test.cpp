@@ -143,8 +143,8 @@ TEST(Aperture, SharesDoNotDependOnOriginAndUnit) {
 TEST(Aperture, QualityGrowsWithTheNumberOfEdges) {
   const TriangleAperture square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {1, 1, 1, 1}, {{0, 1, 2}, {0, 2, 3}}};
   const TriangleAperture cut{{{0, 0}, {0.5, 0}, {1, 0}, {1, 0.5}, {1, 1}, {0.5, 1}, {0, 1}, {0, 0.5}, {0.5, 0.5}},
-                     std::vector<Complex>(9, 1.0),
-                     {{0, 1, 8}, {1, 2, 8}, {2, 3, 8}, {3, 4, 8}, {4, 5, 8}, {5, 6, 8}, {6, 7, 8}, {7, 0, 8}}};
+                             std::vector<Complex>(9, 1.0),
+                             {{0, 1, 8}, {1, 2, 8}, {2, 3, 8}, {3, 4, 8}, {4, 5, 8}, {5, 6, 8}, {6, 7, 8}, {7, 0, 8}}};
   double whole = 0, halves = 0;
   for (const PublishedEdge& e : boundary_edges(square)) whole += published_edge_power(e);
   for (const PublishedEdge& e : boundary_edges(cut)) halves += published_edge_power(e);

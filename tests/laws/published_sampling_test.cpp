@@ -11,6 +11,7 @@
 
 #include "core/constants.h"
 #include "core/random.h"
+#include "tests/laws/upper_gamma.h"
 
 namespace grimaldi {
 namespace {
@@ -62,25 +63,6 @@ TEST(PublishedSamplingParts, EnvelopesHoldAndPowersAgree) {
   // The tails beyond, 1/(16πx²) and 1/(4πx²) in the mean, are right to a tenth: 2e-9.
   EXPECT_NEAR(first, 0.004612658839610051 - 1 / (16 * pi * end * end), 2e-9);
   EXPECT_NEAR(second, 0.12458996032251083 - 1 / (4 * pi * end * end), 2e-9);
-}
-
-/// Q(a, x), regularised upper incomplete gamma function by its continued fraction or series.
-double upper_gamma(double a, double x) {
-  const double front = std::exp(-x + a * std::log(x) - std::lgamma(a));
-  if (x < a + 1) {
-    double term = 1 / a, sum = term;
-    for (int n = 1; n < 1000; ++n) sum += term *= x / (a + n);
-    return 1 - sum * front;
-  }
-  double b = x + 1 - a, c = 1e300, d = 1 / b, h = d;
-  for (int n = 1; n < 1000; ++n) {
-    const double an = -n * (n - a);
-    b += 2;
-    d = 1 / (an * d + b);
-    c = b + an / c;
-    h *= d * c;
-  }
-  return front * h;
 }
 
 struct EdgeCase {

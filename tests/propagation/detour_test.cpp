@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "propagation/coverage_grid.h"
+#include "propagation/sequence.h"
 #include "tests/propagation/runs.h"
 #include "tests/scenes/solids.h"
 
@@ -56,6 +57,43 @@ TEST(Detour, APointBehindTwoWalls) {
   const Result second = test::run(scene, plan);
   EXPECT_EQ(second.profiles[1].total[0], alone.profiles[0].total[0]);
   EXPECT_EQ(second.profiles[1].paths[0].size(), alone.profiles[0].paths[0].size());
+}
+
+// More screens in the way than a path can hold edges (each as high as the line of sight asks for one edge more): the
+// ways around end at max_edges, whatever the depth.
+TEST(Detour, NoPathHasMoreEdgesThanItCanHold) {
+  MeshDescription screens = solids::empty_mesh("metal");
+  constexpr int count = 11;
+  for (int i = 1; i <= count; ++i) {
+    const double x = 20 * i, top = 20 - 0.3 * (i - 6) * (i - 6);
+    solids::add_quad(screens, {x, -200, 0}, {x, 200, 0}, {x, 200, top}, {x, -200, top});
+  }
+  Diagnostics diagnostics;
+  const Scene scene = build_scene(solids::scene({screens}), {}, diagnostics);
+  diagnostics.throw_if_errors();
+  PlanDescription plan = test::plan_for(WaveKind::radio, 1e9, {0, 0, 2});
+  plan.receivers = {test::receiver_at({20.0 * (count + 1), 0, 2}), test::receiver_at({170, 0, 5})};
+  plan.depth = 12;
+  plan.reflection = false;
+  plan.rays = 100;
+  const Result result = test::run(scene, plan);
+  std::size_t most = 0;
+  for (const ReceiverProfile& profile : result.profiles)
+    for (const PathStory& path : profile.paths[0])
+      most =
+          std::max(most, static_cast<std::size_t>(std::count(path.interactions.begin(), path.interactions.end(), 'D')));
+  EXPECT_EQ(most_edges(plan), static_cast<int>(max_edges));
+  EXPECT_LE(most, max_edges);
+  EXPECT_GE(most, 4u);  // the receivers lie behind eight and eleven screens
+}
+
+// Without the direct wave in the run what blocks it is led around all the same.
+TEST(Detour, WithoutTheDirectWave) {
+  const Scene scene = two_walls();
+  PlanDescription plan = street(100, 1);
+  const Result with = test::run(scene, plan);
+  plan.direct = false;
+  EXPECT_EQ(test::run(scene, plan).coverage->path_gain, with.coverage->path_gain);
 }
 
 // The weights of each set of points add up to one over every cell with outdoor area, and more rays ask more points.
