@@ -13,15 +13,22 @@ using Complex = std::complex<double>;
 Complex refracted_cosine(Complex permittivity, double cos_incidence) {
   // η − sin²θ in the form that keeps the digits of a small cosine.
   const double x = (permittivity.real() - 1) + cos_incidence * cos_incidence, y = permittivity.imag();
-  if (x == 0 && y == 0) return 0.0;
+  const double square = x * x + y * y;
+  if (square < 1e-150 || square > 1e150) {  // the ends of the numbers' range
+    const Complex root = std::sqrt(Complex(x, y));
+    return root.imag() > 0 ? -root : root;
+  }
   // The part that adds up first; the other from their product y/2.
-  const double larger = std::sqrt(0.5 * (std::sqrt(x * x + y * y) + std::abs(x))), smaller = 0.5 * y / larger;
+  const double larger = std::sqrt(0.5 * (std::sqrt(square) + std::abs(x))), smaller = 0.5 * y / larger;
   if (x >= 0) return y > 0 ? Complex(-larger, -smaller) : Complex(larger, smaller);
   return {-smaller, -larger};
 }
 
-/// a/b by conj(b): nothing here comes near the ends of the numbers' range.
-Complex quotient(Complex a, Complex b) { return a * std::conj(b) / std::norm(b); }
+/// a/b by conj(b), but for denominators whose square leaves the range of numbers (films thinner than 1e-75 λ).
+Complex quotient(Complex a, Complex b) {
+  const double square = std::norm(b);
+  return square > 1e-150 && square < 1e150 ? a * std::conj(b) / square : a / b;
+}
 
 ReflectionCoefficients interface_reflection(Complex permittivity, double cos_incidence, Complex root) {
   if (permittivity == 1.0) return {0.0, 0.0};  // no interface, at grazing incidence too
