@@ -116,7 +116,7 @@ TEST(Detour, SetsOfPointsCoverTheCell) {
   }
   EXPECT_EQ(effort_of(description).dense_points, 5);
   description.rays = 4e6;
-  EXPECT_EQ(effort_of(description).dense_points, 7);
+  EXPECT_EQ(effort_of(description).dense_points, 8);
   description.rays = 6e4;  // not two more than the coarse ones: none
   EXPECT_EQ(effort_of(description).dense_points, 0);
 }
