@@ -13,6 +13,7 @@
 #include "core/contract.h"
 #include "tests/validation/rows.h"
 #include "validation/bessel.h"
+#include "validation/cases/thin_screens.h"
 #include "validation/wedge_series.h"
 
 namespace grimaldi {
@@ -170,6 +171,32 @@ TEST(BoundaryElements, ThickScreen) {
   worst_hard.expect_within_tolerance(100);
   std::sort(hard_errors.begin(), hard_errors.end());
   EXPECT_LE(hard_errors[hard_errors.size() / 2], 0.1);
+}
+
+TEST(BoundaryElements, ThinScreens) {
+  // The rows of width 3 again, with fewer levels at the corners: 1e-4 of the field, 0.01 dB at −20 dB.
+  for (const Screen screen : {Screen::strip, Screen::slit}) {
+    std::vector<Point> receivers;
+    std::vector<const ThinScreenRow*> rows;
+    for (const ThinScreenRow& row : thin_screens)
+      if (row.screen == screen && row.width == 3 && row.zs == 9)
+        rows.push_back(&row), receivers.push_back({row.x, row.z});
+    std::vector<WedgeField> fields[2];
+    for (const int i : {0, 1}) {
+      const double t = i == 0 ? 0.01 : 0.005, h = 1.5;
+      std::vector<PolygonBody> bodies;
+      if (screen == Screen::strip)
+        bodies = {{{{-t, -h}, {t, -h}, {t, h}, {-t, h}}, false, {}, {}}};
+      else
+        bodies = {{{{t, -h}, {-t, -h}}, true, {0, -1}, {0, -1}}, {{{-t, h}, {t, h}}, true, {0, 1}, {0, 1}}};
+      fields[i] = BoundaryElements(bodies, k, {.levels = 6, .reach = 12}).line_source({-40, 9}, receivers);
+    }
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      const Complex free = line_source_free_field(k, {-40, 9}, receivers[r]);
+      EXPECT_NEAR(level((2.0 * fields[1][r].soft - fields[0][r].soft) / free), rows[r]->soft, 0.01) << r;
+      EXPECT_NEAR(level((2.0 * fields[1][r].hard - fields[0][r].hard) / free), rows[r]->hard, 0.01) << r;
+    }
+  }
 }
 
 TEST(BoundaryElements, Refuses) {

@@ -76,7 +76,7 @@ const Truth& truth_of(const Roofs& roofs) {
   for (const DeepBlock& b : roofs.blocks)
     bodies.push_back({{{b.from + b.width, b.top}, {b.from, b.top}}, true, {0, -1}, {0, -1}});
   // 6 levels at the corners: 1e-4 of the field.
-  const BoundaryElements elements(bodies, k, {.levels = 6, .reach = 14});
+  const BoundaryElements elements(bodies, k, {.levels = 6, .reach = 11});
   for (const auto& source : roofs.sources) {
     const auto fields = elements.line_source(source, roofs.receivers);
     auto &soft = truth.soft.emplace_back(), &hard = truth.hard.emplace_back();

@@ -186,7 +186,7 @@ Outcome largest_jump(const Walk& walk, const Wave& wave, DiffractionModel model)
   MaterialChoice faces = perfect_faces();
   if (std::string(wave.material) != "metal") faces = {}, faces.replace = {{"*", wave.material}};
   const Scene scene = scene_of(walk.scene(), faces);
-  constexpr int points = 400, parts = 10, places = 12, turns = 2;
+  constexpr int points = 300, parts = 10, places = 8, turns = 2;
   struct Step {
     double from, to, size;
   };
