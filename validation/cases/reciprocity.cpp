@@ -56,7 +56,7 @@ const std::vector<Place>& places() {
        {{71, -3, 1.5}, {0, 22, 1.5}},
        2,
        1e5,
-       0.1,
+       0.15,
        skew},
       {"city/depth1",
        "between some houses of the demo city, paths of one interaction",
