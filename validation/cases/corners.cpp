@@ -4,6 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 #include "core/constants.h"
@@ -116,6 +120,16 @@ std::vector<Compared> other_points(Face face, DiffractionModel model) {
   return list;
 }
 
+/// The points of one set and face, compared once for all cases.
+const std::vector<Compared>& once(std::vector<Compared> (*points)(Face, DiffractionModel), Face face) {
+  static std::mutex guard;
+  static std::map<std::pair<bool, Face>, std::vector<Compared>> known;
+  const std::lock_guard lock(guard);
+  const auto [place, added] = known.try_emplace({points == table_points, face});
+  if (added) place->second = points(face, DiffractionModel::utd);
+  return place->second;
+}
+
 /// Error of those that count, above −60 dB of the free field over the edge: the share `quantile` lies below it.
 Outcome error_of(const std::vector<Compared>& points, const std::function<bool(const Compared&)>& counts,
                  double quantile) {
@@ -136,7 +150,6 @@ Outcome error_of(const std::vector<Compared>& points, const std::function<bool(c
 Cases engine_corner_cases() {
   Cases cases;
   const char* exact = "exact field of a point source";
-  constexpr DiffractionModel utd = DiffractionModel::utd;
   for (const Face face : faces) {
     const auto add = [&](const char* part, const char* quantity, double tolerance, double at_least, const char* reason,
                          std::function<Outcome()> run) {
@@ -146,18 +159,18 @@ Cases engine_corner_cases() {
     add("table", "engine (utd) all round wedges of 360 to 240 degrees, points of the table: largest |error of level|",
         0.5, 0, "the goal for kL from 2; 0.4 dB measured next to two boundaries at once at kL = 5", [=] {
           return error_of(
-              table_points(face, utd), [](const Compared& one) { return one.kl >= 2 && !on_boundary(one); }, 1);
+              once(table_points, face), [](const Compared& one) { return one.kl >= 2 && !on_boundary(one); }, 1);
         });
     add("others",
         "engine (utd) all round wedges, every source with every receiver, kL from 2: |error of level| of 99 in 100",
         0.5, 0, "the goal for kL from 2; next to a null of the field no bound in dB holds", [=] {
           return error_of(
-              other_points(face, utd), [](const Compared& one) { return one.kl >= 2; }, 0.99);
+              once(other_points, face), [](const Compared& one) { return one.kl >= 2; }, 0.99);
         });
     add("near", "engine (utd) all round wedges, kL below 2: largest |error of level|", 3, 0.5,
         "a fact: what UTD leaves out grows as 1/kL", [=] {
           return error_of(
-              other_points(face, utd), [](const Compared& one) { return one.kl < 2; }, 1);
+              once(other_points, face), [](const Compared& one) { return one.kl < 2; }, 1);
         });
     add("on-the-boundary",
         "engine (utd), receivers on a shadow boundary to the last bit, oblique rays, kL from 2: largest |error of "
@@ -165,7 +178,7 @@ Cases engine_corner_cases() {
         25, 1,
         "a defect: rays in single precision tell light from shadow, angles in double precision tell the sign of the "
         "edge's wave, and where they differ the direct wave counts twice or not at all; below 1 dB a bound",
-        [=] { return error_of(table_points(face, utd), on_boundary, 1); });
+        [=] { return error_of(once(table_points, face), on_boundary, 1); });
   }
   return cases;
 }

@@ -26,7 +26,6 @@ struct Wave {
 constexpr Wave waves[] = {{"metal-V", WaveKind::radio, 1e9, "metal", Polarisation::vertical},
                           {"metal-H", WaveKind::radio, 1e9, "metal", Polarisation::horizontal},
                           {"concrete-V", WaveKind::radio, 1e9, "concrete", Polarisation::vertical},
-                          {"concrete-H", WaveKind::radio, 1e9, "concrete", Polarisation::horizontal},
                           {"rigid", WaveKind::acoustic, 500, "metal", Polarisation::vertical}};
 
 /// A way of the receiver: a straight line, or an arc about the z axis.
