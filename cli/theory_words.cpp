@@ -107,6 +107,17 @@ std::string suite_words(const std::string& suite) {
        "The same error over Fresnel number and length of edge. It decides which model a run takes by itself."},
       {"wedges", "Perfectly reflecting wedges against the exact field of eigenfunctions and contour integrals."},
       {"knife-edges", "One edge, two edges, and the half-plane as a mesh through the whole engine."},
+      {"screens",
+       "A strip, a slit and a rectangular plate as meshes through the whole engine. The fields of all paths are added "
+       "and compared with Kirchhoff's integral where the screen is black, with boundary elements where it conducts."},
+      {"roofs",
+       "One and two flat roofs as meshes through the whole engine, against boundary elements: receivers from the light "
+       "down into the shadow. Where nothing arrives the level counts as -100 dB."},
+      {"walks",
+       "Ways over shadow boundaries, over the boundaries of a reflection, past the end of an edge and around corners. "
+       "The largest steps of the level are looked at with steps a hundredth as long: a slope is gone then, a jump is "
+       "still there."},
+      {"reciprocity", "Transmitter and receiver exchanged, one polarisation at both ends."},
       {"energy",
        "What diffraction takes from the light it must give to the shadow; what faces do not send back they let "
        "through."},

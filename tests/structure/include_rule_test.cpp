@@ -50,12 +50,13 @@ const std::map<std::string, std::set<std::string>> rooms = {
 const std::set<std::string> references = {
     "quadrature",          "bessel",     "fresnel_integral", "aperture",    "aperture_shape", "aperture_quadrature",
     "rayleigh_sommerfeld", "fraunhofer", "half_plane",       "wedge_field", "wedge_contour",  "wedge_series",
-    "knife_edge"};
+    "knife_edge",          "hankel",     "boundary_elements"};
 const std::set<std::string> vocabulary = {"core/quantity.h",
                                           "core/vector.h",
                                           "core/constants.h",
                                           "core/contract.h",
                                           "validation/bessel.h",
+                                          "validation/hankel.h",
                                           "validation/quadrature.h",
                                           "validation/fresnel_integral.h",
                                           "validation/aperture.h",

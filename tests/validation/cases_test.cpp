@@ -156,7 +156,8 @@ TEST_P(Family, Passes) {
 INSTANTIATE_TEST_SUITE_P(Cases, Family,
                          testing::Values(std::pair{"apertures", &aperture_cases}, std::pair{"wedges", &wedge_cases},
                                          std::pair{"knife_edges", &knife_edge_cases},
-                                         std::pair{"energy", &energy_cases}, std::pair{"materials", &material_cases},
+                                         std::pair{"screens", &screen_cases}, std::pair{"energy", &energy_cases},
+                                         std::pair{"materials", &material_cases},
                                          std::pair{"extremes", &extreme_kernel_cases}),
                          [](const auto& p) { return p.param.first; });
 

@@ -38,6 +38,7 @@ PlanDescription point_to_point(WaveKind kind, double frequency, const Vec3& tran
   plan.depth = 1;
   plan.rays = rays;
   plan.threads = 1;
+  if (kind == WaveKind::acoustic) plan.profile.resolution = 1e-3;
   return plan;
 }
 

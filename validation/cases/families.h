@@ -21,8 +21,18 @@ Cases wedge_cases();
 Cases knife_edge_cases();
 /// Wedges in the engine against exact fields.
 Cases engine_wedge_cases();
+/// One edge in the engine, all round it, down to fractions of a wavelength, against the exact field.
+Cases engine_corner_cases();
 /// A wall with two edges of one top, in the engine, against boundary elements.
 Cases thick_screen_cases();
+/// A strip, a slit and a rectangular plate in the engine against integrals and boundary elements.
+Cases screen_cases();
+/// Flat roofs, one and two behind each other, in the engine against boundary elements.
+Cases roof_cases();
+/// Walks in the engine over boundaries, ends and corners: no jump of the level.
+Cases walk_cases();
+/// The engine with transmitter and receiver exchanged.
+Cases reciprocity_cases();
 /// What must be conserved.
 Cases energy_cases();
 /// The figures of the papers, in the printed and in the repaired form.

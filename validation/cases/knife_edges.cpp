@@ -75,10 +75,11 @@ Outcome black_half_plane(const Link& link) {
 }
 
 /// The same with reflection: hard or soft, against the exact field of a point source.
-Outcome perfect_half_plane(const Link& link, bool soft) {
+Outcome perfect_half_plane(const Link& link, bool soft, DiffractionModel model) {
   const Scene scene = scene_of(scene_description("half-plane"), perfect_faces());
   PlanDescription plan = point_to_point(link.kind, link.frequency, {-link.before, 0, 0});
   plan.transmitters[0].antenna.polarisation = soft ? Polarisation::horizontal : Polarisation::vertical;
+  plan.diffraction_model = model;
   const double wavelength = wavelength_of(plan), k = 2 * pi / wavelength;
   const std::vector<double> levels = {0.05, 0.3, 0.8, 1.5, 2.5, 4};
   for (const double v : levels)
@@ -188,11 +189,13 @@ Cases knife_edge_cases() {
   for (const auto& one : links)
     for (const bool soft : {false, true}) {
       if (soft && one.link.kind == WaveKind::acoustic) continue;
-      cases.push_back({fmt::format("knife-edges/engine/{}/{}", soft ? "soft" : "hard", one.link.name),
-                       "half-plane as a mesh, perfect faces: largest |error of level| for v from 0.05 to 4",
-                       "exact field of a point source at a half-plane", "dB", 0.05,
-                       "exact law; 0.02 dB for a source and a receiver at finite distance", 0,
-                       [link = one.link, soft] { return perfect_half_plane(link, soft); }});
+      for (const DiffractionModel model : {DiffractionModel::fsd, DiffractionModel::utd})
+        cases.push_back({fmt::format("knife-edges/engine/{}/{}{}", soft ? "soft" : "hard", one.link.name,
+                                     model == DiffractionModel::utd ? "/utd" : ""),
+                         "half-plane as a mesh, perfect faces: largest |error of level| for v from 0.05 to 4",
+                         "exact field of a point source at a half-plane", "dB", 0.05,
+                         "exact law; 0.02 dB for a source and a receiver at finite distance", 0,
+                         [link = one.link, soft, model] { return perfect_half_plane(link, soft, model); }});
     }
   return cases;
 }
