@@ -101,7 +101,7 @@ class Scout {
       along[edges_before] = way.along;
       if (edges > 1) unfolded.begin_at({along.data(), edges});
       if (!unfolded.solve(target, wavelength_, geometry_)) continue;
-      const double bound = power_bound(scene_, plan_, geometry_);
+      const double bound = power_bound(scene_, plan_, child, geometry_);
       if (child.size() > 1 && bound < negligible_share * known_[path.cell]) continue;
       const auto leg = blocked_leg(scene_, tracer_, child, geometry_, shadow_rays_);
       proposal.free = !leg;
