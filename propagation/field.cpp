@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/constants.h"
 #include "propagation/antenna.h"
@@ -49,9 +50,11 @@ struct Dyadic {
   Complex bb, bp, pb, pp;
 };
 
+/// For a way of length `way` to the edge, in direction k. A way along the face is a wave of some width: it meets the
+/// face at no less than 1/√(k way).
 Dyadic image_dyadic(const Plan& plan, std::uint32_t material, std::size_t band, const Vec3& edge, const Vec3& k,
-                    const Vec3& normal, double least_cosine = 0) {
-  const double cosine = dot(k, normal);
+                    double way, const Vec3& normal) {
+  const double cosine = dot(k, normal), least_cosine = std::min(1.0, 1 / std::sqrt(plan.wavenumber[band] * way));
   const auto r = face_reflection(plan, material, band, std::clamp(std::abs(cosine), least_cosine, 1.0));
   const Vec3 image = k - 2 * cosine * normal;
   Vec3 s = cross(k, normal);
@@ -65,14 +68,11 @@ Dyadic image_dyadic(const Plan& plan, std::uint32_t material, std::size_t band, 
   return {element(out.beta, in.beta), element(out.beta, in.phi), element(out.phi, in.beta), element(out.phi, in.phi)};
 }
 
-/// The mean of the face's dyadic for the way there and, transposed, for the way back (φ̂ turns round with the ray):
-/// reciprocal, and unchanged at the reflection boundary, where both are the same.
-Dyadic reciprocal_image(const Plan& plan, std::uint32_t material, std::size_t band, const Vec3& edge, const Vec3& k_in,
-                        const Vec3& k_out, const Vec3& normal) {
-  const Dyadic there = image_dyadic(plan, material, band, edge, k_in, normal);
-  const Dyadic back = image_dyadic(plan, material, band, edge, -k_out, normal);
-  return {0.5 * (there.bb + back.bb), 0.5 * (there.bp - back.pb), 0.5 * (there.pb - back.bp),
-          0.5 * (there.pp + back.pp)};
+/// The same for the way back: transposed (φ̂ turns round with the ray).
+Dyadic reversed(const Dyadic& d) { return {d.bb, -d.pb, -d.bp, d.pp}; }
+
+Dyadic mean(const Dyadic& a, const Dyadic& b) {
+  return {0.5 * (a.bb + b.bb), 0.5 * (a.bp + b.bp), 0.5 * (a.pb + b.pb), 0.5 * (a.pp + b.pp)};
 }
 
 /// True if the faces of an edge have waves of their own.
@@ -80,28 +80,24 @@ bool faces_count(const Plan& plan) {
   return plan.request.reflection || plan.request.diffraction_model == DiffractionModel::utd;
 }
 
-/// The face along which a wave came to an edge or leaves it for the next one, and how long that way is.
-struct GrazedFace {
-  std::uint32_t patch = no_index;
-  double way = 0;
-};
-
-/// The faces of one edge as its wave meets them: dyadics (sound: bb alone).
+/// The faces of one edge as its wave meets them: dyadics (sound: bb alone). The mean of a face's dyadic for the way
+/// there and for the way back: reciprocal, and unchanged at the reflection boundary, where both are the same. Along a
+/// face that the edge before (`came`) or after (`leaves`) shares, the way between the two alone.
 class EdgeFaces {
  public:
-  EdgeFaces(const Plan& plan, bool faces, const Wedge& wedge, std::size_t band, const Vec3& k_in, const Vec3& k_out,
-            const GrazedFace& came, const GrazedFace& leaves) {
-    if (!faces) return;
-    const bool radio = plan.request.kind == WaveKind::radio;
+  EdgeFaces(const Plan& plan, const Wedge& wedge, const EdgePassage& passage, std::size_t band, const Vec3& k_in,
+            const Vec3& k_out, std::uint32_t came, std::uint32_t leaves) {
     const auto dyadic = [&](std::uint32_t patch, std::uint32_t material, const Vec3& normal) -> Dyadic {
-      if (!radio) return {face_reflection(plan, material, band, 1).te, 0, 0, 0};
-      // Along a face that the next edge shares, the way between the two alone tells its coefficient.
-      const auto least = [&](double way) { return std::min(1.0, 1 / std::sqrt(plan.wavenumber[band] * way)); };
-      if (patch == came.patch)
-        return image_dyadic(plan, material, band, wedge.direction, k_in, normal, least(came.way));
-      if (patch != leaves.patch) return reciprocal_image(plan, material, band, wedge.direction, k_in, k_out, normal);
-      const Dyadic back = image_dyadic(plan, material, band, wedge.direction, -k_out, normal, least(leaves.way));
-      return {back.bb, -back.pb, -back.bp, back.pp};
+      if (plan.request.kind != WaveKind::radio) return {face_reflection(plan, material, band, 1).te, 0, 0, 0};
+      const auto there = [&] {
+        return image_dyadic(plan, material, band, wedge.direction, k_in, passage.s_in, normal);
+      };
+      const auto back = [&] {
+        return reversed(image_dyadic(plan, material, band, wedge.direction, -k_out, passage.s_out, normal));
+      };
+      if (patch == came) return there();
+      if (patch == leaves) return back();
+      return mean(there(), back());
     };
     face0_ = dyadic(wedge.patch0, wedge.material0, wedge.normal0);
     if (!wedge.free_rim) facen_ = dyadic(wedge.patchn, wedge.materialn, wedge.normaln());
@@ -185,7 +181,7 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
     std::size_t waves = 1, edge_number = 0;
     Complex weight = 1;
     EdgeTerms before;
-    GrazedFace came;
+    std::uint32_t came = no_index;
     for (std::size_t i = 0; i < interactions.size(); ++i) {
       if (!is_edge(interactions[i])) {
         const Patch& patch = scene.patches.patches[interactions[i]];
@@ -202,18 +198,18 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
       const Wedge& wedge = scene.wedges.wedges[passage.wedge];
       const bool first = edge_number == 0, last = edge_number + 1 == edges;
       weight *= end_weight(wedge, passage, wavelength, wavenumber);
-      GrazedFace leaves;
-      if (!last && is_edge(interactions[i + 1]))
-        leaves = {grazed_face(scene, passage, geometry.edges[edge_number + 1]), passage.s_out};
+      std::uint32_t leaves = no_index;
+      if (!last && is_edge(interactions[i + 1])) leaves = grazed_face(scene, passage, geometry.edges[edge_number + 1]);
       // The wave along a face that both edges bound is there as itself and as its image.
-      if (faces && leaves.patch != no_index) weight *= 0.5;
+      if (faces && leaves != no_index) weight *= 0.5;
       EdgeTerms terms =
           edge_terms(plan.request.diffraction_model, faces, wedge, passage, chain.distance[edge_number], wavenumber);
       if (!first && !last)
         for (std::size_t t = 0; t < terms.count; ++t)
           terms.term[t].slope = std::min(terms.term[t].slope, 4 * terms.term[t].plain);
       const ConeFrame in(wedge.direction, k[i]), out(wedge.direction, k[i + 1]);
-      const EdgeFaces at_faces(plan, faces, wedge, band, k[i], k[i + 1], came, leaves);
+      std::optional<EdgeFaces> at_faces;
+      if (faces) at_faces.emplace(plan, wedge, passage, band, k[i], k[i + 1], came, leaves);
       std::array<std::array<Complex, 2>, 4> arriving;
       for (std::size_t a = 0; a < waves; ++a) {
         if (radio)
@@ -237,7 +233,7 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
           sum[0] += factor * arriving[a][0];
           sum[1] += factor * arriving[a][1];
         }
-        const auto seen = at_faces.seen_at(term.boundary, sum);
+        const auto seen = faces ? at_faces->seen_at(term.boundary, sum) : sum;
         leaving[last ? 0 : t][0] += seen[0];
         leaving[last ? 0 : t][1] += seen[1];
       }

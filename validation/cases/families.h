@@ -21,8 +21,9 @@ Cases wedge_cases();
 Cases knife_edge_cases();
 /// Wedges in the engine against exact fields.
 Cases engine_wedge_cases();
-/// A wall with two edges of one top, in the engine, against boundary elements.
-Cases thick_screen_cases();
+/// Two edges in the engine: two screens against the double Fresnel integral, a flat roof against boundary elements, and
+/// what must not jump.
+Cases double_edge_cases();
 /// What must be conserved.
 Cases energy_cases();
 /// The figures of the papers, in the printed and in the repaired form.
