@@ -95,8 +95,8 @@ class EdgeFaces {
       const auto back = [&] {
         return reversed(image_dyadic(plan, material, band, wedge.direction, -k_out, passage.s_out, normal));
       };
-      if (patch == came) return there();
-      if (patch == leaves) return back();
+      if (patch == came && patch != leaves) return there();
+      if (patch == leaves && patch != came) return back();
       return mean(there(), back());
     };
     face0_ = dyadic(wedge.patch0, wedge.material0, wedge.normal0);
