@@ -22,10 +22,10 @@ namespace grimaldi {
 /// and 1 at one that none shares, spreading of the whole chain of edges (`edge_chain`). Neighbouring edges: each pair
 /// of their terms by the double-edge wave, faces between them or not; of three and more the pairs of neighbours,
 /// chained (W₁₂W₂₃/W₂). Two edges of one face, along which the wave goes: half of the sum over all pairs, with the
-/// face's coefficient for that way at both edges, at an angle to the face of at least 1/√(k s₁₂), the width of the
-/// transition at grazing incidence: of a rigid or magnetic-like face the wave counts once, of a soft one what is left
-/// is the coupling of the slopes. Source: half = the wave and its image are one at grazing incidence (Kouyoumjian &
-/// Pathak); the numerical distance of Sommerfeld for the angle. Air: attenuation of the plan over the whole length.
+/// face's coefficient for that way at both edges: over a rigid face the wave counts once, of a soft one what is left is
+/// the coupling of the slopes. A way of length s to or from an edge meets a face at no less than 1/√(ks), the width of
+/// the transition at grazing incidence. Source: the half, Kouyoumjian & Pathak; the angle, Sommerfeld's numerical
+/// distance. Air: attenuation of the plan over the whole length.
 void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmitter,
                 std::span<const Interaction> interactions, const PathGeometry& geometry,
                 std::span<std::array<std::complex<double>, 2>> field);

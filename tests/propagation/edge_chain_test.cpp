@@ -39,7 +39,8 @@ struct Way {
 };
 
 /// Chains between random points over random edges of the city, seen or not: the law does not ask.
-std::vector<Way> ways(const Scene& scene, std::size_t edges, std::size_t count, std::uint64_t stream) {
+std::vector<Way> ways(const Scene& scene, std::size_t edges, std::size_t count, std::uint64_t stream,
+                      bool face_between = false) {
   std::vector<Way> found;
   const auto wedges = scene.wedges.wedges.size();
   for (std::uint64_t i = 0; found.size() < count && i < 2000000; ++i) {
@@ -48,6 +49,8 @@ std::vector<Way> ways(const Scene& scene, std::size_t edges, std::size_t count, 
         {200 * u[0] - 100, 200 * u[1] - 100, 1 + 40 * u[2]}, {200 * v[0] - 100, 200 * v[1] - 100, 1 + 40 * v[2]}, {}};
     auto wedge = static_cast<std::size_t>(e[0] * double(wedges));
     for (std::size_t n = 0; n < edges; ++n) {
+      if (n > 0 && face_between)
+        way.interactions.push_back(static_cast<Interaction>(v[3] * double(scene.patches.patches.size())));
       way.interactions.push_back(edge_interaction(static_cast<std::uint32_t>(wedge)));
       // A near neighbour in every other step: edges of one building, of one face.
       wedge = i % 2 == 0 ? (wedge + 1 + static_cast<std::size_t>(4 * e[n + 1])) % wedges
@@ -118,10 +121,16 @@ class Chains : public testing::TestWithParam<DiffractionModel> {};
 TEST_P(Chains, ExchangeOfTheEnds) {
   for (const char* material : {"concrete", "metal"}) {
     const City here = city(GetParam(), material);
-    for (const std::size_t edges : {std::size_t{2}, std::size_t{3}}) {
+    struct Kind {
+      std::size_t edges;
+      bool face_between;
+    };
+    for (const auto& [edges, face_between] : {Kind{2, false}, Kind{2, true}, Kind{3, false}}) {
       double worst = 0;
       int lost = 0;
-      for (const Way& way : ways(here.scene, edges, 300, 10 + edges)) {
+      const std::vector<Way> all = ways(here.scene, edges, face_between ? 50 : 300, 10 + edges, face_between);
+      ASSERT_GE(all.size(), 50u);
+      for (const Way& way : all) {
         const Solved there = solve(here, way.source, way.receiver, way.interactions);
         const Solved back = solve(here, way.receiver, way.source, {way.interactions.rbegin(), way.interactions.rend()});
         const auto forth = there.field[0], again = back.field[0];
@@ -139,7 +148,7 @@ TEST_P(Chains, ExchangeOfTheEnds) {
         if (std::norm(forth[0]) < 1e-9 * std::norm(forth[1])) continue;
         worst = std::max(worst, std::abs(test::decibel(std::norm(forth[0]) / std::norm(again[0]))));
       }
-      std::printf("%s, %zu edges: %.1e dB\n", material, edges, worst);
+      std::printf("%s, %zu edges%s: %.1e dB\n", material, edges, face_between ? ", a face between" : "", worst);
       EXPECT_LT(worst, 1e-6);
       EXPECT_LT(lost, 15);  // Newton starts elsewhere: ways past corners are not always found again
     }
