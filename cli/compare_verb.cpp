@@ -20,8 +20,8 @@
 #include "cli/progress.h"
 #include "cli/scene_request.h"
 #include "cli/version.h"
+#include "propagation/budget.h"
 #include "propagation/result_file.h"
-#include "propagation/simulation.h"
 
 namespace grimaldi {
 namespace {
@@ -88,11 +88,11 @@ struct Folders {
   }
 };
 
-Result timed(const Scene& scene, const Tracer& tracer, const Plan& plan, const ProgressReport& report,
+Result timed(const Scene& scene, const Tracer& tracer, Plan& plan, const ProgressReport& report,
              const std::atomic<bool>* stop) {
   const Clock::time_point start = Clock::now();
   const std::clock_t cpu = std::clock();
-  Result result = simulate(scene, tracer, plan, report, stop);
+  Result result = simulate_within_budget(scene, tracer, plan, start, report, stop);
   result.figures.wall_seconds = std::chrono::duration<double>(Clock::now() - start).count();
   result.figures.cpu_seconds = double(std::clock() - cpu) / CLOCKS_PER_SEC;
   return result;
@@ -136,6 +136,8 @@ int compare_verb(const Arguments& arguments) {
     if (!one.coverage) one.coverage = CoverageRequest{};
     runs[m].plan = make_plan(one, scene, tracer, told);
     told.throw_if_errors();
+    // Half of the time for each; the second has the beams of the first.
+    if (runs[m].plan.request.time) *runs[m].plan.request.time /= 2;
   }
 
   std::vector<Diagnostic> warnings = warnings_of(diagnostics);
@@ -148,6 +150,10 @@ int compare_verb(const Arguments& arguments) {
   try {
     for (std::size_t m = 0; m < models.size(); ++m) {
       ProgressReport report;
+      if (m > 0) {
+        runs[m].plan.request.rays = runs[0].plan.request.rays;
+        runs[m].plan.request.accuracy = runs[m].plan.request.time = std::nullopt;
+      }
       if (progress) {
         const auto show = [&progress, m](const std::string& stage, double share) {
           progress->show(std::string(models[m]) + ": " + stage, share);

@@ -32,7 +32,8 @@ std::string map_rows(const Plan& plan, const CoverageMap& map) {
   std::string text = row("map", fmt::format("{} × {} cells of {:g} m; {} outdoors, {} reached ({:.1f} %)", plan.grid.nx,
                                             plan.grid.ny, plan.grid.cell, figures.asked, figures.reached, share));
   return text +
-         row("error", fmt::format("median standard error {:.3f} dB (sampling only)", figures.median_standard_error_dB));
+         row("error", fmt::format("standard error {:.3f} dB in the median, below {:.3f} dB in 95 % (sampling only)",
+                                  figures.median_standard_error_dB, figures.p95_standard_error_dB));
 }
 
 std::string receiver_rows(const Plan& plan, const Result& result) {
@@ -65,6 +66,11 @@ std::string run_table(const Scene& scene, const Plan& plan, const Result& result
                                               scene.wedges.wedges.size()));
   text += row("rays", fmt::format("{} in {} passes, {} segments, {} shadow rays", short_count(double(run.rays)),
                                   run.passes, short_count(double(run.segments)), short_count(double(run.shadow_rays))));
+  if (!run.rounds.empty())
+    text += row("budget", fmt::format("{} rounds, ended by {}", run.rounds.size(),
+                                      run.ended_by == BudgetEnd::accuracy ? "the accuracy asked"
+                                      : run.ended_by == BudgetEnd::time   ? "the time"
+                                                                          : "the most rays"));
   if (result.coverage) text += map_rows(plan, *result.coverage);
   text += receiver_rows(plan, result);
   text += row("time", fmt::format("{:.2f} s, {:.2f} s of it tracing, {} thread{}, {:.0f} MB", run.wall_seconds,

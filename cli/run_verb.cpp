@@ -15,8 +15,8 @@
 #include "cli/run_table.h"
 #include "cli/scene_request.h"
 #include "cli/version.h"
+#include "propagation/budget.h"
 #include "propagation/result_file.h"
-#include "propagation/simulation.h"
 
 namespace grimaldi {
 namespace {
@@ -44,6 +44,9 @@ PlanDescription read_request(const Arguments& arguments, Diagnostics& diagnostic
     if (request.receivers.empty() && !diagnostics.has_errors())
       diagnostics.error(arguments.input, 0, "receiver", "missing", "a profile needs a receiver",
                         "add [[receiver]] with a position, or give --rx 40,-60,1.5");
+    if (request.accuracy)
+      diagnostics.error(arguments.input, 0, "budget.accuracy", "not for a profile",
+                        "the standard error is that of a map's cells", "give rays or time");
   }
   return request;
 }
@@ -60,7 +63,7 @@ int run_verb(const Arguments& arguments, Clock::time_point start) {
   if (scene.triangles.empty()) diagnostics.throw_if_errors();
   // A request with faults is held against the scene too: all faults at once.
   const Tracer tracer(scene);
-  const Plan plan = make_plan(request, scene, tracer, diagnostics);
+  Plan plan = make_plan(request, scene, tracer, diagnostics);
   diagnostics.throw_if_errors();
 
   std::vector<Diagnostic> warnings = warnings_of(diagnostics);
@@ -77,7 +80,7 @@ int run_verb(const Arguments& arguments, Clock::time_point start) {
   folder.create();
   Result result;
   try {
-    result = simulate(scene, tracer, plan, report, interruption.flag());
+    result = simulate_within_budget(scene, tracer, plan, start, report, interruption.flag());
   } catch (...) {
     folder.remove_if_empty();
     throw;

@@ -7,6 +7,7 @@
 
 #include "core/constants.h"
 #include "core/random.h"
+#include "propagation/effort.h"
 
 namespace grimaldi {
 namespace {
@@ -136,23 +137,11 @@ void add_outdoors(const GridLayout& grid, int n, bool edge, std::vector<SubPoint
 
 }  // namespace
 
-int edge_sub_points_a_side(const PlanDescription& request) {
-  if (most_edges(request) == 0) return 0;
-  return std::clamp(static_cast<int>(std::lround(2 * std::cbrt(request.rays / 1e6))), 2, 5);
-}
-
-int dense_sub_points_a_side(const PlanDescription& request) {
-  const int coarse = edge_sub_points_a_side(request);
-  if (coarse == 0) return 0;
-  const int dense = static_cast<int>(std::lround(std::min(8.0, 4 * std::sqrt(request.rays / 1e6))));
-  return dense > coarse ? dense : 0;
-}
-
 CoverageGrid make_coverage_grid(const Scene& scene, const Plan& plan) {
   static_assert(sub_points_a_side * sub_points_a_side + 5 * 5 <= max_sub_points);
   const GridLayout& layout = plan.grid;
-  const int edge_points = edge_sub_points_a_side(plan.request);
-  const int dense_points = dense_sub_points_a_side(plan.request);
+  const Effort effort = effort_of(plan.request);
+  const int edge_points = effort.coarse_points, dense_points = effort.dense_points;
   ParityRaster parity(layout);
   for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
     const auto& corners = scene.triangles[t];

@@ -43,14 +43,6 @@ struct CoverageGrid {
 /// Fine sub-points along a cell's side.
 inline constexpr int sub_points_a_side = 6;
 
-/// Coarse sub-points along a cell's side for a run of `rays`: 2 (rays/1e6)^⅓, at least 2, at most 5; 0 where nothing
-/// diffracts.
-int edge_sub_points_a_side(const PlanDescription& request);
-
-/// Dense sub-points along a cell's side: 4 √(rays/1e6), at most 8; 0 where that is no more than the coarse ones. The
-/// error of paths that light a part of the cell falls at least as one over their number a side.
-int dense_sub_points_a_side(const PlanDescription& request);
-
 /// A cell's inside fraction is taken at 8 × 8 points: inside where an odd number of surfaces, ground excluded, lies
 /// straight above (all triangles scanned row by row with one fill rule, so that a point above a common edge counts
 /// once). A cell wholly outdoors has n × n Gauss-Legendre points, so that the mean of a smooth gain has an error of the

@@ -8,6 +8,7 @@
 #include "core/constants.h"
 #include "core/random.h"
 #include "propagation/connect.h"
+#include "propagation/effort.h"
 #include "propagation/fermat.h"
 #include "propagation/field.h"
 #include "propagation/patch_rims.h"
@@ -17,9 +18,6 @@ namespace {
 
 /// Patches next to either end of a blocked leg whose edges are tried.
 constexpr int blockers_seen = 4;
-/// Ways around whose path is asked for (a sixth of them for a third edge and more); of those that are free, and of
-/// those that something else blocks, as many are kept.
-constexpr int detours_tried = 48, free_detours = 12, blocked_detours = 12;
 
 /// A way around: the edge, where it is passed, and the length of the way over it. Of a solid that hides either end from
 /// the edge nearer to the other: two edges of one face.
@@ -70,6 +68,7 @@ class Scout {
         discovered_(discovered),
         known_(known),
         rims_(rims),
+        effort_(effort_of(plan.request)),
         wavelength_(2 * pi / plan.wavenumber.front()),
         unit_gain_(plan.request.kind == WaveKind::radio ? std::pow(wavelength_ / (4 * pi), 2) : 1 / (4 * pi)) {}
 
@@ -90,12 +89,12 @@ class Scout {
     for (std::size_t i = 0; i < edges_before + edges_after; ++i) known_along[i] = geometry_.edges[i].along;
     int tried = 0, free = 0, blocked = 0;
     for (const WayAround& way : ways_) {
-      if (free == free_detours) break;
+      if (free == effort_.detours_kept) break;
       const std::size_t added = way.second == no_index ? 1 : 2;
       const std::size_t edges = edges_before + edges_after + added, size = interactions.size() + added;
       const int longest = plan_.request.depth, most = most_edges(plan_.request);
       if (static_cast<int>(size) > longest || static_cast<int>(edges) > most) continue;
-      if (++tried > (edges > 2 ? detours_tried / 6 : detours_tried)) break;
+      if (++tried > (edges > 2 ? effort_.detours_tried / 6 : effort_.detours_tried)) break;
       auto next = std::copy(before.begin(), before.end(), proposal.interactions.begin());
       *next++ = edge_interaction(way.wedge);
       if (added == 2) *next++ = edge_interaction(way.second);
@@ -111,12 +110,12 @@ class Scout {
       if (edges > 1) unfolded.begin_at({along.data(), edges});
       if (!unfolded.solve(target, wavelength_, solved_)) continue;
       const double bound = power_bound(scene_, plan_, child, solved_);
-      if (child.size() > 1 && bound < negligible_share * known_[path.cell]) continue;
+      if (child.size() > 1 && bound < effort_.negligible_share * known_[path.cell]) continue;
       const auto leg = blocked_leg(scene_, tracer_, child, solved_, shadow_rays_);
       proposal.free = !leg;
       if (leg) {
         const bool may_go_on = static_cast<int>(size) < longest && static_cast<int>(edges) < most;
-        if (!may_go_on || ++blocked > blocked_detours) continue;
+        if (!may_go_on || ++blocked > effort_.detours_kept) continue;
         proposal.leg = static_cast<std::uint8_t>(*leg);
       } else {
         ++free;
@@ -245,6 +244,7 @@ class Scout {
   const Discovered& discovered_;
   const std::vector<double>& known_;
   const PatchRims& rims_;
+  const Effort effort_;
   const double wavelength_, unit_gain_;
   PathGeometry geometry_, solved_;
   std::vector<std::uint32_t> patches_, rims_found_;

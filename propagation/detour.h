@@ -19,11 +19,10 @@ namespace grimaldi {
 ///
 /// Candidates are the rims of the patches that stand in the blocked leg (of the four next to either end), and the rims
 /// of the patches next to those. Of the shortest ways around that a path can take and whose bound is not negligible in
-/// the cell (`negligible_share` of `known`) some that are free are kept, and some that are not. One of the cells of a
-/// 3 × 3 tile asks for all. No chance is involved, but for the pass: what one tile alone finds shall count as found by
-/// one pass, so each tile belongs to a pass that is drawn.
-/// Inputs: `known` per cell, as in Grown; most_edges along a path. Blocked paths without room for one more edge are
-/// passed over.
+/// the cell (`Effort::negligible_share` of `known`) some that are free are kept, and some that are not. One of the
+/// cells of a 3 × 3 tile asks for all. No chance is involved, but for the pass: what one tile alone finds shall count
+/// as found by one pass, so each tile belongs to a pass that is drawn. Inputs: `known` per cell, as in Grown;
+/// most_edges along a path. Blocked paths without room for one more edge are passed over.
 Discovered detours(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
                    const CoverageGrid& grid, const Discovered& discovered, const std::vector<double>& known,
                    int most_edges, const std::atomic<bool>* stop);

@@ -20,16 +20,32 @@ namespace {
 constexpr auto diffraction_layer = static_cast<std::size_t>(Mechanism::diffraction);
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
+/// Cross terms over one set of points, and the power of the paths that have them.
+struct CrossTerms {
+  double interference = 0, power = 0;  ///< Σ w I, Σ w |h|²
+};
+
+/// What the points of one set bring.
+struct PointSums {
+  double mean = 0, square = 0;  ///< Σ w x, Σ w x²
+  void add(double weight, double x) {
+    mean += weight * x;
+    square += weight * x * x;
+  }
+};
+
 /// Sums of one cell and band.
 struct CellSums {
   std::array<double, mechanism_count> layers{};
   double delay = 0, delay2 = 0, power = 0;  ///< power-weighted moments of the delay about the straight way's
-  double fine2 = 0, edge2 = 0, dense2 = 0;  ///< Σ w x² of a point's power x, of each set
-  double dense = 0;                         ///< Σ w x of the dense set
-  double interference = 0;                  ///< Σ w I over the edges' points
-  double edge_points_power = 0;             ///< Σ w |h|² of all paths over the edges' points
-  std::array<double, 32> lone{};            ///< gain that one pass alone found
+  double strong = 0;                        ///< the part of `power` that strong paths bring
+  PointSums fine, coarse, dense;
+  CrossTerms all, few, many;      ///< of all paths and of the strong ones at coarse points, of these at dense ones
+  std::array<double, 32> lone{};  ///< gain that one pass alone found
 };
+
+/// True for the paths whose cross terms are known at the dense points.
+bool is_strong(const Pair& pair) { return pair.dense != 0; }
 
 class CellEvaluator {
  public:
@@ -51,7 +67,6 @@ class CellEvaluator {
     if (points.empty()) return;
     std::fill(sums_.begin(), sums_.end(), CellSums{});
     const Transmitter& transmitter = plan_.request.transmitters[transmitter_];
-    const Polarisation polarisation = plan_.request.coverage->polarisation;
     // Delays are summed about the straight line's, so that their variance keeps its digits.
     const double reference_delay = distance(transmitter.position, grid_.layout.centre(cell)) / plan_.speed;
     std::vector<UnfoldedSequence>& unfolded = unfolded_;
@@ -59,64 +74,86 @@ class CellEvaluator {
     for (const Pair& pair : pairs)
       unfolded.emplace_back(scene_, transmitter.position, discovered_.sequences[pair.sequence]);
     at_point_.resize(plan_.bands());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const bool coarse = points[i].edge_weight > 0;
-      std::size_t count = 0;
-      std::fill(at_point_.begin(), at_point_.end(), 0.0);
-      for (std::size_t p = 0; p < pairs.size(); ++p) {
-        if (!(pairs[p].visible >> i & 1)) continue;
-        if (arrivals_.size() <= count) arrivals_.emplace_back();
-        Arrival& arrival = arrivals_[count];
-        if (!arrive(grid_.layout.centre(cell) + points[i].offset, pairs[p], p, arrival)) continue;
-        const bool with_edge = count_edges(arrival.interactions) > 0;
-        if (!pairs[p].refined && with_edge == coarse)
-          add(pairs[p], arrival, coarse ? points[i].edge_weight : points[i].weight, reference_delay);
-        ++count;
-      }
-      for (std::size_t band = 0; band < plan_.bands(); ++band)
-        sums_[band].fine2 += points[i].weight * at_point_[band] * at_point_[band];
-      if (!coarse) continue;
-      composite_.interference({arrivals_.data(), count}, polarisation, interference_,
-                              grid_.layout.cell * std::sqrt(points[i].edge_weight));
-      for (std::size_t band = 0; band < plan_.bands(); ++band) {
-        sums_[band].interference += points[i].edge_weight * interference_[band];
-        for (std::size_t a = 0; a < count; ++a)
-          sums_[band].edge_points_power +=
-              points[i].edge_weight * received_power(arrivals_[a].field[band], polarisation);
-        const double here = at_point_[band] + interference_[band];
-        sums_[band].edge2 += points[i].edge_weight * here * here;
-      }
-    }
-    const auto dense = grid_.dense_of(cell);
-    arrivals_.resize(std::max<std::size_t>(arrivals_.size(), 1));
-    for (std::size_t i = 0; i < dense.size(); ++i) {
-      std::fill(at_point_.begin(), at_point_.end(), 0.0);
-      for (std::size_t p = 0; p < pairs.size(); ++p)
-        if ((pairs[p].dense >> i & 1) &&
-            arrive(grid_.layout.centre(cell) + dense[i].offset, pairs[p], p, arrivals_.front()))
-          add(pairs[p], arrivals_.front(), dense[i].edge_weight, reference_delay);
-      for (std::size_t band = 0; band < plan_.bands(); ++band) {
-        sums_[band].dense += dense[i].edge_weight * at_point_[band];
-        sums_[band].dense2 += dense[i].edge_weight * at_point_[band] * at_point_[band];
-      }
-    }
+    for (std::size_t i = 0; i < points.size(); ++i) at_fine_or_coarse(cell, pairs, i, reference_delay);
+    for (std::size_t i = 0; i < grid_.dense_of(cell).size(); ++i) at_dense(cell, pairs, i, reference_delay);
     store(cell, pairs, points, reference_delay);
   }
 
  private:
-  /// The wave of pair number p at a point; false if it does not get there.
-  bool arrive(const Vec3& point, const Pair& pair, std::size_t p, Arrival& arrival) {
+  /// What comes without an edge, at a fine point; over edges, with all cross terms, at a coarse one.
+  void at_fine_or_coarse(std::size_t cell, std::span<const Pair> pairs, std::size_t i, double reference_delay) {
+    const SubPoint& point = grid_.of(cell)[i];
+    const bool coarse = point.edge_weight > 0;
+    start_point();
+    std::size_t strong = 0;
+    // The strong paths first, so that they are a span of their own.
+    for (const bool strong_ones : {true, false}) {
+      for (std::size_t p = 0; p < pairs.size(); ++p) {
+        if (is_strong(pairs[p]) != strong_ones || !(pairs[p].visible >> i & 1)) continue;
+        if (arrive(grid_.layout.centre(cell) + point.offset, pairs[p], p) && has_edge(pairs[p]) == coarse &&
+            !pairs[p].refined)
+          add(pairs[p], coarse ? point.edge_weight : point.weight, reference_delay);
+      }
+      if (strong_ones) strong = arrived_;
+    }
+    if (coarse) {
+      cross_terms(arrived_, point.edge_weight, &CellSums::all, 1);
+      cross_terms(strong, point.edge_weight, &CellSums::few, -1);
+    }
+    for (std::size_t band = 0; band < plan_.bands(); ++band)
+      (coarse ? sums_[band].coarse : sums_[band].fine).add(coarse ? point.edge_weight : point.weight, at_point_[band]);
+  }
+
+  /// The strong paths and their cross terms at a dense point.
+  void at_dense(std::size_t cell, std::span<const Pair> pairs, std::size_t i, double reference_delay) {
+    const SubPoint& point = grid_.dense_of(cell)[i];
+    start_point();
+    for (std::size_t p = 0; p < pairs.size(); ++p)
+      if ((pairs[p].dense >> i & 1) && arrive(grid_.layout.centre(cell) + point.offset, pairs[p], p) &&
+          pairs[p].refined)
+        add(pairs[p], point.edge_weight, reference_delay);
+    cross_terms(arrived_, point.edge_weight, &CellSums::many, 1);
+    for (std::size_t band = 0; band < plan_.bands(); ++band) sums_[band].dense.add(point.edge_weight, at_point_[band]);
+  }
+
+  void start_point() {
+    arrived_ = 0;
+    std::fill(at_point_.begin(), at_point_.end(), 0.0);
+  }
+
+  /// Cross terms of the first `count` arrivals into a cell's sums and, times `sign`, into those of the point.
+  void cross_terms(std::size_t count, double weight, CrossTerms CellSums::*into, double sign) {
+    if (count == 0) return;
+    const std::span<const Arrival> arrivals(arrivals_.data(), count);
+    const Polarisation polarisation = plan_.request.coverage->polarisation;
+    composite_.interference(arrivals, polarisation, interference_, grid_.layout.cell * std::sqrt(weight));
+    for (std::size_t band = 0; band < plan_.bands(); ++band) {
+      CrossTerms& terms = sums_[band].*into;
+      terms.interference += weight * interference_[band];
+      for (const Arrival& arrival : arrivals) terms.power += weight * received_power(arrival.field[band], polarisation);
+      at_point_[band] += sign * interference_[band];
+    }
+  }
+
+  /// The wave of pair number p at a point is the next of `arrivals_`; false if it does not get there.
+  bool arrive(const Vec3& point, const Pair& pair, std::size_t p) {
+    if (arrivals_.size() <= arrived_) arrivals_.emplace_back();
+    Arrival& arrival = arrivals_[arrived_];
     if (!unfolded_[p].solve(point, wavelength_, arrival.geometry)) return false;
     arrival.hash = discovered_.sequences.hash(pair.sequence);
     arrival.interactions = discovered_.sequences[pair.sequence];
     arrival.field.resize(plan_.bands());
     path_field(scene_, plan_, plan_.request.transmitters[transmitter_], arrival.interactions, arrival.geometry,
                arrival.field);
+    ++arrived_;
     return true;
   }
 
-  /// Its power into the sums of the cell and of the point.
-  void add(const Pair& pair, const Arrival& arrival, double weight, double reference_delay) {
+  bool has_edge(const Pair& pair) const { return count_edges(discovered_.sequences[pair.sequence]) > 0; }
+
+  /// The power of the last arrival into the sums of the cell and of the point.
+  void add(const Pair& pair, double weight, double reference_delay) {
+    const Arrival& arrival = arrivals_[arrived_ - 1];
     const auto layer = static_cast<std::size_t>(mechanism_of(arrival.interactions));
     const double delay = arrival.geometry.length / plan_.speed - reference_delay;
     for (std::size_t band = 0; band < plan_.bands(); ++band) {
@@ -126,10 +163,22 @@ class CellEvaluator {
       CellSums& sums = sums_[band];
       sums.layers[layer] += power;
       sums.power += power;
+      if (is_strong(pair)) sums.strong += power;
       sums.delay += power * delay;
       sums.delay2 += power * delay * delay;
       if (std::has_single_bit(pair.passes)) sums.lone[std::countr_zero(pair.passes)] += power;
     }
+  }
+
+  /// The cross terms of a cell: of the strong paths from the dense points, of the others from the coarse ones. Each set
+  /// gives their ratio to the power of the same paths at the same points, times the power as it is known best.
+  static double interference(const CellSums& sums) {
+    const auto ratio = [](double power, double known) { return known > 0 ? power / known : 0; };
+    const double coarse = ratio(sums.power, sums.all.power);
+    const double both = ratio(sums.strong, sums.many.power) * sums.many.interference +
+                        coarse * (sums.all.interference - sums.few.interference);
+    // The two sets together may come out below −power, where the waves cancel; the coarse points alone cannot.
+    return both > -sums.power ? both : coarse * sums.all.interference;
   }
 
   /// True if the fine points are no smooth quadrature: the cell is crossed, or a path without an edge ends inside it.
@@ -150,10 +199,7 @@ class CellEvaluator {
     const std::size_t cells = grid_.layout.size(), bands = plan_.bands();
     for (std::size_t band = 0; band < bands; ++band) {
       CellSums& sums = sums_[band];
-      // The interference is known over the edges' points: its ratio to the power there times the power over all points,
-      // so that the two sets never make a cell negative.
-      const double scale = sums.edge_points_power > 0 ? sums.power / sums.edge_points_power : 0;
-      sums.layers[static_cast<std::size_t>(Mechanism::interference)] = scale * sums.interference;
+      sums.layers[static_cast<std::size_t>(Mechanism::interference)] = interference(sums);
       const std::size_t at = (transmitter_ * bands + band) * cells + cell;
       double gain = 0;
       for (std::size_t m = 0; m < mechanism_count; ++m) {
@@ -168,17 +214,14 @@ class CellEvaluator {
         squares += off * off;
       }
       // Of few points the spread itself is uncertain: 2 of these errors cover 95 % as Student's distribution has it.
-      const auto spread = [](double squares2, double mean, double n) {
+      const auto spread = [](const PointSums& set, double n) {
         if (n < 1) return 0.0;
         constexpr double half_quantile[] = {6.35, 6.35, 2.15, 1.59, 1.39, 1.29, 1.22, 1.18, 1.15};
         const double student = n < 10 ? half_quantile[static_cast<std::size_t>(n) - 1] : 1.0;
-        return student * student * std::max(0.0, squares2 - mean * mean) / std::max(1.0, n - 1);
+        return student * student * std::max(0.0, set.square - set.mean * set.mean) / std::max(1.0, n - 1);
       };
-      const double edge_mean = sums.layers[diffraction_layer] - sums.dense + sums.interference;
-      const double fine_mean = sums.power - sums.layers[diffraction_layer];
-      const double variance = spread(sums.edge2, edge_mean, edge_points) +
-                              spread(sums.dense2, sums.dense, dense_points) +
-                              (fine_counts ? spread(sums.fine2, fine_mean, fine_points) : 0);
+      const double variance = spread(sums.coarse, edge_points) + spread(sums.dense, dense_points) +
+                              (fine_counts ? spread(sums.fine, fine_points) : 0);
       map_.path_gain[at] = gain;
       map_.standard_error[at] = std::sqrt((passes - 1) / passes * squares + variance);
       map_.bias[at] = gain > 0 ? (passes - 1) / passes * std::min(1.0, lone / gain) : 0;  // a share as yet
@@ -201,7 +244,8 @@ class CellEvaluator {
   std::vector<CellSums> sums_;
   std::vector<double> interference_, at_point_;
   std::vector<UnfoldedSequence> unfolded_;
-  std::vector<Arrival> arrivals_;
+  std::vector<Arrival> arrivals_;  ///< at the point in hand; the first `arrived_` count
+  std::size_t arrived_ = 0;
 };
 
 /// From the share g of each cell's gain that one pass alone found to the gain that none has found: g/(1 − g) of the

@@ -17,15 +17,15 @@ namespace grimaldi {
 CoverageMap empty_map(const Plan& plan, const CoverageGrid& grid);
 
 /// Fills transmitter `transmitter` of `map`.
-/// * path_gain = Σ w_i Σ_paths |h|² over the cell's sub-points i (fine ones for paths without an edge, dense ones for
-/// the
-///   refined paths, coarse ones for the others), times 1 + interference/power over the points of
-/// edges;
-///   layers by `mechanism_of`; delays weighted by the power of the paths.
+/// * path_gain = Σ w_i Σ_paths |h|² + interference over the cell's sub-points i: fine ones for paths without an edge,
+///   dense ones for the refined paths, coarse ones for the others. Interference: of the paths that the dense points
+///   know, from those; what the other paths add to it from the coarse points; each as its ratio to the power of the
+///   same paths at the same points. Layers by `mechanism_of`; delays weighted by the power of the paths.
 /// * standard_error² = passes + sub-points. Passes (jackknife, one of B left out): with u_i the gain that pass i alone
-///   found, (B−1)/B Σ(u_i − ū)². Sub-points: what edges bring to a point, interference included, adds its variance over
-///   the n points/(n − 1); what comes without an edge does so where a wall crosses the cell or such a path ends inside
-///   it (elsewhere the quadrature is exact). Of few points with Student's factor, so that 2 standard errors cover 95 %.
+///   found, (B−1)/B Σ(u_i − ū)². Sub-points: what each set of points of edges brings, interference included, adds its
+///   variance over the n points/(n − 1); what comes without an edge does so where a wall crosses the cell or such a
+///   path ends inside it (elsewhere the quadrature is exact). Of few points with Student's factor, so that 2 standard
+///   errors cover 95 %.
 /// * bias: what no pass has found yet, as Good and Turing estimate it: with the share g = (B−1)/B Σ u_i/gain that one
 ///   pass alone found, gain · g/(1 − g). g of the cell or its mean over the 11 × 11 cells around, whichever is larger
 ///   (a cell's own few paths say little of what it lacks), at most 0.95. Source: Good, Biometrika 40 (1953).

@@ -9,6 +9,7 @@
 #include "core/constants.h"
 #include "propagation/composite.h"
 #include "propagation/connect.h"
+#include "propagation/effort.h"
 #include "propagation/fermat.h"
 #include "propagation/field.h"
 
@@ -43,7 +44,8 @@ class Grower {
         grid_(grid),
         discovered_(discovered),
         known_(known),
-        wavelength_(2 * pi / plan.wavenumber.front()) {}
+        wavelength_(2 * pi / plan.wavenumber.front()),
+        negligible_share_(effort_of(plan.request).negligible_share) {}
 
   /// One sequence from its seeds [first, last).
   void grow(std::uint32_t sequence, const Seed* first, const Seed* last, Workspace& work, BlockPairs& out) const {
@@ -144,7 +146,7 @@ class Grower {
     const Vec3 centre = grid_.layout.centre(pair.cell);
     work.field.resize(plan_.bands());
     const bool edges = count_edges(interactions) > 0;
-    const double threshold = edges && interactions.size() >= 2 ? negligible_share * known_[pair.cell] : 0;
+    const double threshold = edges && interactions.size() >= 2 ? negligible_share_ * known_[pair.cell] : 0;
     bool lead_around = may_be_led_around(interactions);
     double power = 0, strength = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -190,7 +192,7 @@ class Grower {
   const CoverageGrid& grid_;
   const Discovered& discovered_;
   const std::vector<double>& known_;
-  const double wavelength_;
+  const double wavelength_, negligible_share_;
 };
 
 /// Runs work(block, workspace, pairs) over blocks and appends what they found in the order of the blocks.

@@ -20,8 +20,8 @@ struct Pair {
   std::uint64_t visible;    ///< sub-points (bits) where it arrives; a path with an edge is asked at edges' points alone
   std::uint32_t passes;     ///< passes (bits) that found the patch of cells that this one belongs to
   float power;              ///< about its mean power over the cell at the first band, 1 or m⁻²
-  std::uint64_t dense = 0;  ///< dense sub-points (bits) where it arrives, if `refined`
-  bool refined = false;     ///< its power is that over the dense points, in place of the coarse ones
+  std::uint64_t dense = 0;  ///< dense sub-points (bits) where it arrives, if it was asked there
+  bool refined = false;     ///< of a path with an edge: its power is that over the dense points, not the coarse ones
 };
 
 /// The order of pairs: by cell, then sequence.
@@ -36,14 +36,9 @@ struct Grown {
   std::uint64_t shadow_rays = 0;
 };
 
-/// Share of a cell's power from stronger sequences below which one sequence of two and more interactions with an edge
-/// is left out of the cell (and does not grow through it): −30 dB. In Etoile a street point has some 2,000 pairs of
-/// edges, of which those below this bound carry 0.1 dB together.
-inline constexpr double negligible_share = 1e-3;
-
 /// Grows sequences from the seeds of `discovered` from number `first_seed` on (sorted by sequence, then cell) and adds
 /// them to `grown`, strongest first by the seeds' estimate, in stages of 10 dB: a stage knows the power that the ones
-/// before it brought to each cell (`negligible_share`). In the first growth the empty sequence asks every
+/// before it brought to each cell (`Effort::negligible_share`). In the first growth the empty sequence asks every
 /// cell (a plan without the direct wave: to note where it is blocked). Cells
 /// wholly inside a solid are not asked. Independent of the number of threads.
 void grow(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter, const CoverageGrid& grid,

@@ -9,6 +9,7 @@
 #include "core/constants.h"
 #include "core/quantity.h"
 #include "propagation/coverage_grid.h"
+#include "propagation/effort.h"
 #include "propagation/result.h"
 #include "propagation/sequence.h"
 #include "propagation/tracer.h"
@@ -152,8 +153,9 @@ Plan make_plan(const PlanDescription& description, const Scene& scene, const Tra
   }
   plan.materials = face_materials(plan, scene, diagnostics);
   if (description.coverage && std::isfinite(description.coverage->cell_size)) {
-    const double sub_points = sub_points_a_side * sub_points_a_side + std::pow(edge_sub_points_a_side(description), 2) +
-                              std::pow(dense_sub_points_a_side(description), 2);
+    const Effort effort = effort_of(description);
+    const double sub_points =
+        sub_points_a_side * sub_points_a_side + std::pow(effort.coarse_points, 2) + std::pow(effort.dense_points, 2);
     // Layers, gain, error, bias and delays per transmitter and band; the sub-points; the walk's bookkeeping.
     const std::size_t bytes = description.transmitters.size() * plan.bands() * (mechanism_count + 5) * sizeof(double) +
                               static_cast<std::size_t>(sub_points) * sizeof(SubPoint) + 64;

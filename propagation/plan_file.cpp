@@ -176,9 +176,21 @@ void read_propagation_section(ScenarioReader& reader, const ScenarioNode& root, 
 void read_budget_section(ScenarioReader& reader, const ScenarioNode& root, PlanDescription& plan) {
   const ScenarioNode* section = reader.table(root, "budget");
   if (section == nullptr) return;
-  reader.check_keys(*section, {"rays", "seed", "passes"}, {"accuracy", "time"});
+  reader.check_keys(*section, {"rays", "accuracy", "time", "seed", "passes"});
   // A run of 1e12 rays takes weeks; what is more is a slip of the pen.
   reader.read(*section, "rays", Dimension::number, {1, 1e12}, plan.rays);
+  const auto optional = [&](const char* key, Dimension dimension, const NumberRange& range,
+                            std::optional<double>& target) {
+    const ScenarioNode* node = section->find(key);
+    if (node == nullptr) return;
+    double value = range.low;
+    reader.read(*section, key, dimension, range, value);
+    target = value;
+    if (section->find("rays") != nullptr)
+      reader.fault(*node, "two budgets", "rays is given too", fmt::format("leave out rays or {}", key));
+  };
+  optional("accuracy", Dimension::ratio, {0.01, 100}, plan.accuracy);
+  optional("time", Dimension::time, {1, 1e7}, plan.time);
   if (const ScenarioNode* seed = section->find("seed"))
     if (const auto value = reader.integer(*seed, 0, std::numeric_limits<std::int64_t>::max()))
       plan.seed = static_cast<std::uint64_t>(*value);

@@ -87,7 +87,9 @@ struct PlanDescription {
   bool direct = true, reflection = true, diffraction = true;
   DiffractionModel diffraction_model = DiffractionModel::fsd;
   // [budget]
-  double rays = 1e6;
+  double rays = 1e6;               ///< with an accuracy or a time: those of the last round, once it was run
+  std::optional<double> accuracy;  ///< dB; 95 % of the reached cells shall have a standard error below it
+  std::optional<double> time;      ///< s from the start of the program
   std::uint64_t seed = 1;
   int passes = 16;
   unsigned threads = 0;  ///< 0 = all processors; not part of the result's identity

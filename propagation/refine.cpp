@@ -5,12 +5,13 @@
 #include "core/blocks.h"
 #include "core/constants.h"
 #include "propagation/connect.h"
+#include "propagation/effort.h"
 #include "propagation/fermat.h"
 
 namespace grimaldi {
 namespace {
 
-constexpr double strong_share = 0.05, strong_next_door = 0.2;
+constexpr double strong_next_door = 0.2;
 constexpr std::size_t cells_per_block = 64;
 
 /// What a block of cells adds.
@@ -27,6 +28,7 @@ class Refiner {
         tracer_(tracer),
         source_(plan.request.transmitters[transmitter].position),
         wavelength_(2 * pi / plan.wavenumber.front()),
+        strong_share_(effort_of(plan.request).strong_share),
         grid_(grid),
         discovered_(discovered),
         grown_(grown),
@@ -42,8 +44,8 @@ class Refiner {
     const double power = grown_.known[cell];
     for (std::size_t i = begins_[cell]; i < begins_[cell + 1]; ++i) {
       Pair& pair = grown_.pairs[i];
-      if (!has_edge_[pair.sequence] || pair.power < strong_share * power) continue;
-      pair.refined = true;
+      if (pair.power < strong_share_ * power) continue;
+      pair.refined = has_edge_[pair.sequence];
       pair.dense = ask(cell, pair.sequence, geometry, added.shadow_rays);
     }
     const std::size_t first_added = added.pairs.size();
@@ -86,7 +88,7 @@ class Refiner {
   const Scene& scene_;
   const Tracer& tracer_;
   const Vec3 source_;
-  const double wavelength_;
+  const double wavelength_, strong_share_;
   const CoverageGrid& grid_;
   const Discovered& discovered_;
   Grown& grown_;

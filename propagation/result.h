@@ -57,6 +57,16 @@ struct FluxLedger {
   double launched = 0, absorbed = 0, escaped = 0, cut_by_depth = 0;
 };
 
+/// One of the runs that a budget of accuracy or time makes.
+struct BudgetRound {
+  double rays = 0;
+  double seconds = 0;
+  double error_dB = 0;  ///< 95 % of the reached cells have a standard error below it; 0 without a map
+};
+
+/// What ended the rounds: the accuracy was reached, the time was up, or there are no more rays.
+enum class BudgetEnd { accuracy, time, rays };
+
 struct RunFigures {
   double wall_seconds = 0, cpu_seconds = 0, trace_seconds = 0;
   double discover_seconds = 0, merge_seconds = 0, grow_seconds = 0,
@@ -67,6 +77,8 @@ struct RunFigures {
   std::uint64_t sequences = 0, sequence_cell_pairs = 0;
   int passes = 0;
   FluxLedger flux;
+  std::vector<BudgetRound> rounds;  ///< empty where the rays were given
+  BudgetEnd ended_by = BudgetEnd::rays;
 };
 
 struct Result {

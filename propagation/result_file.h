@@ -37,6 +37,7 @@ struct MapFigures {
   std::size_t reached = 0;  ///< cells with path_gain > 0 (any transmitter, first band)
   /// 10 lg(1 + error/gain), median over the pairs (transmitter, cell) with path_gain > 0, first band; 0 of none.
   double median_standard_error_dB = 0;
+  double p95_standard_error_dB = 0;              ///< 95 % of those pairs have less
   double mechanism_power[mechanism_count] = {};  ///< sum over cells and transmitters, first band
 };
 

@@ -9,6 +9,7 @@
 #include "core/blocks.h"
 #include "propagation/coverage_grid.h"
 #include "propagation/discover.h"
+#include "propagation/effort.h"
 #include "propagation/evaluate.h"
 #include "propagation/grow.h"
 #include "propagation/look_back.h"
@@ -90,6 +91,7 @@ Result simulate(const Scene& scene, const Tracer& tracer, const Plan& asked, con
           const StageClock stage(figures.discover_seconds);
           Search wanted;
           if (twice) (search == 0 ? wanted.most_edges : wanted.fewest_edges) = search + 1;
+          const double negligible_share = effort_of(plan.request).negligible_share;
           if (search == 1)
             for (const double power : grown.known) wanted.negligible.push_back(negligible_share * power);
           auto found = discover(scene, tracer, plan, t, wanted, report("discover", from, from + 0.5 * size), stop);

@@ -20,6 +20,19 @@ double median(std::vector<double>& values) {
   return 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
+nlohmann::ordered_json budget_json(const Plan& plan, const RunFigures& run) {
+  nlohmann::ordered_json budget, rounds = nlohmann::ordered_json::array();
+  if (plan.request.accuracy) budget["accuracy_dB"] = *plan.request.accuracy;
+  if (plan.request.time) budget["time_s"] = *plan.request.time;
+  budget["ended_by"] = run.ended_by == BudgetEnd::accuracy ? "accuracy"
+                       : run.ended_by == BudgetEnd::time   ? "time"
+                                                           : "rays";
+  for (const BudgetRound& round : run.rounds)
+    rounds.push_back({{"rays", round.rays}, {"seconds", round.seconds}, {"p95_standard_error_dB", round.error_dB}});
+  budget["rounds"] = rounds;
+  return budget;
+}
+
 }  // namespace
 
 MapFigures map_figures(const Plan& plan, const CoverageMap& map) {
@@ -48,6 +61,11 @@ MapFigures map_figures(const Plan& plan, const CoverageMap& map) {
     figures.reached += reached;
   }
   figures.median_standard_error_dB = median(errors_dB);
+  if (!errors_dB.empty()) {
+    const auto at = errors_dB.begin() + std::ptrdiff_t(0.95 * double(errors_dB.size() - 1));
+    std::nth_element(errors_dB.begin(), at, errors_dB.end());
+    figures.p95_standard_error_dB = *at;
+  }
   for (std::size_t t = 0; t < transmitters; ++t)
     for (std::size_t m = 0; m < mechanism_count; ++m)
       for (std::size_t cell = 0; cell < cells; ++cell) {
@@ -83,6 +101,8 @@ std::string summary_json(const Plan& plan, const Result& result, const std::vect
   summary["cells_asked"] = map.asked;
   summary["cells_reached"] = map.reached;
   summary["median_standard_error_dB"] = map.median_standard_error_dB;
+  summary["p95_standard_error_dB"] = map.p95_standard_error_dB;
+  if (!run.rounds.empty()) summary["budget"] = budget_json(plan, run);
   summary["flux"] = flux;
   summary["stage_seconds"] = {{"discover", run.discover_seconds},
                               {"merge", run.merge_seconds},

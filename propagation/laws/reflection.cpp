@@ -1,7 +1,6 @@
 #include "propagation/laws/reflection.h"
 
 #include <cmath>
-#include <utility>
 
 #include "core/contract.h"
 
@@ -13,8 +12,22 @@ using Complex = std::complex<double>;
 /// √(η − sin²θ) on the sheet of decaying waves (negative imaginary part).
 Complex refracted_cosine(Complex permittivity, double cos_incidence) {
   // η − sin²θ in the form that keeps the digits of a small cosine.
-  const Complex root = std::sqrt((permittivity - 1.0) + cos_incidence * cos_incidence);
-  return root.imag() > 0 ? -root : root;
+  const double x = (permittivity.real() - 1) + cos_incidence * cos_incidence, y = permittivity.imag();
+  const double square = x * x + y * y;
+  if (square < 1e-150 || square > 1e150) {  // the ends of the numbers' range
+    const Complex root = std::sqrt(Complex(x, y));
+    return root.imag() > 0 ? -root : root;
+  }
+  // The part that adds up first; the other from their product y/2.
+  const double larger = std::sqrt(0.5 * (std::sqrt(square) + std::abs(x))), smaller = 0.5 * y / larger;
+  if (x >= 0) return y > 0 ? Complex(-larger, -smaller) : Complex(larger, smaller);
+  return {-smaller, -larger};
+}
+
+/// a/b by conj(b), but for denominators whose square leaves the range of numbers (films thinner than 1e-75 λ).
+Complex quotient(Complex a, Complex b) {
+  const double square = std::norm(b);
+  return square > 1e-150 && square < 1e150 ? a * std::conj(b) / square : a / b;
 }
 
 ReflectionCoefficients interface_reflection(Complex permittivity, double cos_incidence, Complex root) {
@@ -25,33 +38,33 @@ ReflectionCoefficients interface_reflection(Complex permittivity, double cos_inc
 
 /// The wave inside a slab.
 struct SlabPasses {
-  ReflectionCoefficients face;     ///< R' of its faces
-  ReflectionCoefficients through;  ///< 1 − R'², which keeps its digits where R' → ±1
-  Complex exponent;                ///< −j2q: there and back
-  Complex one_minus;               ///< 1 − e^{−j2q}
+  Complex root;       ///< √(η − sin²θ)
+  Complex exponent;   ///< −j2q: there and back
+  Complex one_minus;  ///< 1 − e^{−j2q}
 };
 
 SlabPasses passes(Complex permittivity, double thickness, double wavenumber, double cos_incidence) {
   const Complex root = refracted_cosine(permittivity, cos_incidence);
   // e^{−j2q} = e^{a}(cos b + j sin b) with a ≤ 0; 1 − e^{−j2q} = −expm1(a) + e^a(2 sin²(b/2) − j sin b).
   const Complex exponent = Complex(0, -2) * (wavenumber * thickness * root);
-  const double decay = std::exp(exponent.real());
-  const double half_sine = std::sin(exponent.imag() / 2);
-  const Complex one_minus(-std::expm1(exponent.real()) + 2 * decay * half_sine * half_sine,
-                          -decay * std::sin(exponent.imag()));
-  // 1 − ((x − q)/(x + q))² = 4xq/(x + q)², x = cos θ or η cos θ.
-  const auto through = [&](Complex x) {
-    const Complex sum = x + root;
-    return permittivity == 1.0 ? Complex(1) : 4.0 * (x / sum) * (root / sum);
-  };
-  return {interface_reflection(permittivity, cos_incidence, root),
-          {through(cos_incidence), through(permittivity * cos_incidence)},
-          exponent,
-          one_minus};
+  const double gone = std::expm1(exponent.real()), half = exponent.imag() / 2;
+  const double sine = std::sin(half), cosine = std::cos(half);
+  return {root, exponent, Complex(-gone + 2 * (1 + gone) * sine * sine, -2 * (1 + gone) * sine * cosine)};
 }
 
-/// R = R'(1 − e^{−j2q})/(1 − R'² e^{−j2q}), the denominator written (1 − R'²) + R'²(1 − e^{−j2q}).
-Complex summed(Complex r, Complex through, Complex one_minus) { return through + r * r * one_minus; }
+/// R and what goes through for one polarisation, x = cos θ or η cos θ: R' = (x − q)/(x + q) in
+/// R'(1 − e^{−j2q})/(1 − R'² e^{−j2q}), the denominator written (1 − R'²) + R'²(1 − e^{−j2q}), all times (x + q)².
+struct SlabWave {
+  Complex apart, sum, cross, below;
+
+  SlabWave(Complex x, const SlabPasses& slab)
+      : apart(x - slab.root),
+        sum(x + slab.root),
+        cross(4.0 * x * slab.root),
+        below(cross + apart * apart * slab.one_minus) {}
+  Complex reflected(const SlabPasses& slab) const { return quotient(apart * sum * slab.one_minus, below); }
+  Complex transmitted(Complex once) const { return quotient(cross * once, below); }
+};
 
 }  // namespace
 
@@ -74,11 +87,8 @@ ReflectionCoefficients slab_reflection(Complex permittivity, double thickness, d
   GRIMALDI_EXPECT(thickness >= 0 && wavenumber > 0);
   if (std::isinf(thickness)) return half_space_reflection(permittivity, cos_incidence);
   const SlabPasses slab = passes(permittivity, thickness, wavenumber, cos_incidence);
-  if (slab.one_minus == 0.0) return {0.0, 0.0};  // no thickness
-  const auto reflected = [&](Complex r, Complex through) {
-    return r * slab.one_minus / summed(r, through, slab.one_minus);
-  };
-  return {reflected(slab.face.te, slab.through.te), reflected(slab.face.tm, slab.through.tm)};
+  if (permittivity == 1.0 || slab.one_minus == 0.0) return {0.0, 0.0};  // no slab, or no thickness
+  return {SlabWave(cos_incidence, slab).reflected(slab), SlabWave(permittivity * cos_incidence, slab).reflected(slab)};
 }
 
 SlabCoefficients slab_coefficients(Complex permittivity, double thickness, double wavenumber, double cos_incidence) {
@@ -86,13 +96,9 @@ SlabCoefficients slab_coefficients(Complex permittivity, double thickness, doubl
   if (std::isinf(thickness)) return {half_space_reflection(permittivity, cos_incidence), {0.0, 0.0}};
   const SlabPasses slab = passes(permittivity, thickness, wavenumber, cos_incidence);
   const Complex once = std::exp(0.5 * slab.exponent);
-  if (slab.one_minus == 0.0) return {{0.0, 0.0}, {once, once}};
-  const auto both = [&](Complex r, Complex through) {
-    const Complex sum = summed(r, through, slab.one_minus);
-    return std::pair{r * slab.one_minus / sum, through * once / sum};
-  };
-  const auto te = both(slab.face.te, slab.through.te), tm = both(slab.face.tm, slab.through.tm);
-  return {{te.first, tm.first}, {te.second, tm.second}};
+  if (permittivity == 1.0 || slab.one_minus == 0.0) return {{0.0, 0.0}, {once, once}};
+  const SlabWave te(cos_incidence, slab), tm(permittivity * cos_incidence, slab);
+  return {{te.reflected(slab), tm.reflected(slab)}, {te.transmitted(once), tm.transmitted(once)}};
 }
 
 double wall_reflection(double absorption) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "propagation/coverage_grid.h"
+#include "propagation/effort.h"
 #include "propagation/sequence.h"
 #include "tests/propagation/runs.h"
 #include "tests/scenes/solids.h"
@@ -113,11 +114,11 @@ TEST(Detour, SetsOfPointsCoverTheCell) {
     for (const SubPoint& p : grid.dense_of(cell)) dense += p.edge_weight;
     for (const double sum : {fine, coarse, dense}) EXPECT_NEAR(sum, 1, 1e-13) << cell;
   }
-  EXPECT_EQ(dense_sub_points_a_side(description), 4);
+  EXPECT_EQ(effort_of(description).dense_points, 5);
   description.rays = 4e6;
-  EXPECT_EQ(dense_sub_points_a_side(description), 8);
-  description.rays = 6e4;  // no more than the coarse ones: none
-  EXPECT_EQ(dense_sub_points_a_side(description), 0);
+  EXPECT_EQ(effort_of(description).dense_points, 8);
+  description.rays = 6e4;  // not two more than the coarse ones: none
+  EXPECT_EQ(effort_of(description).dense_points, 0);
 }
 
 }  // namespace

@@ -358,6 +358,10 @@ TEST_F(PlanFile, WrongNumbersAreRefused) {
   expect_one(m + "[propagation]\ndepth = 2.5\n", 8, "propagation.depth", "not a whole number");
   expect_one(m + "[propagation]\ndepth = -1\n", 8, "propagation.depth", "out of range");
   expect_one(m + "[budget]\nrays = 0\n", 8, "budget.rays", "out of range", "1");
+  expect_one(m + "[budget]\naccuracy = '1dB'\nrays = 1e5\n", 8, "budget.accuracy", "two budgets", "leave out");
+  expect_one(m + "[budget]\ntime = '60s'\nrays = 1e5\n", 8, "budget.time", "two budgets", "leave out");
+  expect_one(m + "[budget]\naccuracy = '5GHz'\n", 8, "budget.accuracy", "unit of the wrong kind");
+  expect_one(m + "[budget]\ntime = 0\n", 8, "budget.time", "out of range");
   expect_one(m + "[budget]\npasses = 1\n", 8, "budget.passes", "out of range", "2 … 32");
   expect_one(m + "[budget]\nseed = -1\n", 8, "budget.seed", "out of range");
   expect_one(m + "[profile]\nmax_paths = 0\n", 8, "profile.max_paths", "out of range");
@@ -419,8 +423,6 @@ TEST_F(PlanFile, WhatThisVersionLacksIsSaid) {
   const std::string m = minimal, lacks = "not in this version";
   expect_one(m + "[propagation]\ndiffraction = 'auto'\n", 8, "propagation.diffraction", lacks);
   expect_one(m + "[propagation]\nmechanisms = ['transmission']\n", 8, "propagation.mechanisms.0", lacks);
-  expect_one(m + "[budget]\naccuracy = '1dB'\n", 8, "budget.accuracy", lacks);
-  expect_one(m + "[budget]\ntime = '60s'\n", 8, "budget.time", lacks);
   expect_one(m + "[[receiver]]\nlocation = { latitude = 1, longitude = 2, height = 3 }\n", 8, "receiver.0.location",
              lacks);
   expect_one(m + "[[material]]\nname = 'grass'\nflow_resistivity = '200kPa·s/m²'\n", 9, "material.0.flow_resistivity",

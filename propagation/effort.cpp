@@ -1,0 +1,28 @@
+#include "propagation/effort.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "propagation/plan.h"
+
+namespace grimaldi {
+
+Effort effort_of(const PlanDescription& request) {
+  const double millions = request.rays / 1e6, e = std::sqrt(millions);
+  const auto within = [](double value, int least, int most) {
+    return static_cast<int>(std::clamp(value, double(least), double(most)));
+  };
+  Effort effort{};
+  if (most_edges(request) > 0) {
+    effort.coarse_points = within(std::round(2 * e), 2, 5);
+    const int dense = within(std::ceil(5 * std::sqrt(e)), 0, 8);
+    effort.dense_points = dense > effort.coarse_points + 1 ? dense : 0;
+  }
+  effort.strong_share = std::min(0.1, 0.02 / e);
+  effort.negligible_share = std::clamp(1e-3 / millions, 5e-5, 0.01);
+  effort.detours_tried = within(std::round(48 * millions), 6, 96);
+  effort.detours_kept = within(std::round(12 * millions), 1, 24);
+  return effort;
+}
+
+}  // namespace grimaldi
