@@ -12,6 +12,7 @@
 #include "core/special_functions.h"
 #include "propagation/fermat.h"
 #include "propagation/field.h"
+#include "propagation/laws/double_edge.h"
 #include "propagation/laws/free_space_diffraction.h"
 #include "propagation/laws/reflection.h"
 #include "propagation/laws/triangle_transform.h"
@@ -51,6 +52,34 @@ void edge_wave_kernel(benchmark::State& state) {
   }
 }
 BENCHMARK(edge_wave_kernel)->Name("edge_wave");
+
+/// Two edges: arguments of both over the whole table, couplings 0.05 to 0.95.
+template <class Function>
+void double_edge_kernel(benchmark::State& state, const Function& function) {
+  std::size_t i = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        function(i % table_size, (i * 31 + 7) % table_size, 0.05 + 0.9 * double(i % 17) / 16, i % 2 == 0));
+    ++i;
+  }
+}
+
+void double_edge_wave_kernel(benchmark::State& state) {
+  const auto q = spread_arguments();
+  double_edge_kernel(state, [&](std::size_t a, std::size_t b, double w, bool dark) {
+    return double_edge_wave(q[a], dark, q[b], true, w);
+  });
+}
+BENCHMARK(double_edge_wave_kernel)->Name("double_edge_wave");
+
+void double_edge_excess_kernel(benchmark::State& state) {
+  std::vector<EdgeWave> waves;
+  for (const double q : spread_arguments()) waves.push_back(make_edge_wave(q));
+  double_edge_kernel(state, [&](std::size_t a, std::size_t b, double w, bool dark) {
+    return double_edge_excess(waves[a], waves[b], dark ? w : -w);
+  });
+}
+BENCHMARK(double_edge_excess_kernel)->Name("double_edge_excess");
 
 // ---- special functions and wedges, one at a time and in spans: nanoseconds per value
 // ---------------------------------
@@ -302,6 +331,22 @@ void path_field_kernel(benchmark::State& state) {
   }
 }
 BENCHMARK(path_field_kernel)->Name("path_field")->ArgName("edges")->Arg(0)->Arg(1)->Arg(2);
+
+/// The bound that comes before it.
+void power_bound_kernel(benchmark::State& state) {
+  const Street street;
+  const Course way = course(street, state.range(0));
+  PathGeometry path;
+  if (!UnfoldedSequence(street.scene, way.source, way.interactions).solve(way.receiver, wavelength, path)) {
+    state.SkipWithError("a path was not found");
+    return;
+  }
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(power_bound(street.scene, street.plan, way.interactions, path));
+    benchmark::ClobberMemory();
+  }
+}
+BENCHMARK(power_bound_kernel)->Name("power_bound")->ArgName("edges")->Arg(1)->Arg(2);
 
 }  // namespace
 }  // namespace grimaldi

@@ -18,10 +18,12 @@ namespace {
 
 /// Patches next to either end of a blocked leg whose edges are tried.
 constexpr int blockers_seen = 4;
-/// A way around: the edge, where it is passed, and the length of the way over it.
+
+/// A way around: the edge, where it is passed, and the length of the way over it. Of a solid that hides either end from
+/// the edge nearer to the other: two edges of one face.
 struct WayAround {
-  std::uint32_t wedge;
-  double along, length;  ///< m
+  std::uint32_t wedge, second;         ///< no_index: one edge is enough
+  double along, along_second, length;  ///< m
 };
 
 /// A sequence found by one blocked path.
@@ -80,30 +82,39 @@ class Scout {
     proposal.cell = path.cell;
     proposal.point = path.point;
     proposal.passes = 1u << tile_pass(plan_, grid_.layout, path.cell);
-    proposal.size = static_cast<std::uint32_t>(interactions.size() + 1);
-    const auto inserted = std::copy_n(interactions.begin(), path.leg, proposal.interactions.begin());
-    std::copy(interactions.begin() + path.leg, interactions.end(), inserted + 1);
-    const std::span<const Interaction> child(proposal.interactions.data(), proposal.size);
+    const std::span<const Interaction> before = interactions.first(path.leg), after = interactions.subspan(path.leg);
     // The parent's places along the edges are the child's first guess.
-    const std::size_t edges_before = count_edges(interactions.first(path.leg)), edges = count_edges(interactions) + 1;
-    std::array<double, max_edges> along{};
-    for (std::size_t i = 0; i + 1 < edges; ++i) along[i + (i >= edges_before)] = geometry_.edges[i].along;
-    const bool may_go_on =
-        static_cast<int>(child.size()) < plan_.request.depth && static_cast<int>(edges) < most_edges(plan_.request);
+    const std::size_t edges_before = count_edges(before), edges_after = count_edges(after);
+    std::array<double, max_edges> known_along{};
+    for (std::size_t i = 0; i < edges_before + edges_after; ++i) known_along[i] = geometry_.edges[i].along;
     int tried = 0, free = 0, blocked = 0;
     for (const WayAround& way : ways_) {
       if (free == effort_.detours_kept) break;
-      *inserted = edge_interaction(way.wedge);
+      const std::size_t added = way.second == no_index ? 1 : 2;
+      const std::size_t edges = edges_before + edges_after + added, size = interactions.size() + added;
+      const int longest = plan_.request.depth, most = most_edges(plan_.request);
+      if (static_cast<int>(size) > longest || static_cast<int>(edges) > most) continue;
       if (++tried > (edges > 2 ? effort_.detours_tried / 6 : effort_.detours_tried)) break;
-      UnfoldedSequence unfolded(scene_, source_, child);
+      auto next = std::copy(before.begin(), before.end(), proposal.interactions.begin());
+      *next++ = edge_interaction(way.wedge);
+      if (added == 2) *next++ = edge_interaction(way.second);
+      std::copy(after.begin(), after.end(), next);
+      proposal.size = static_cast<std::uint32_t>(size);
+      const std::span<const Interaction> child(proposal.interactions.data(), proposal.size);
+      std::array<double, max_edges> along{};
+      std::copy_n(known_along.begin(), edges_before, along.begin());
       along[edges_before] = way.along;
+      if (added == 2) along[edges_before + 1] = way.along_second;
+      std::copy_n(known_along.begin() + edges_before, edges_after, along.begin() + edges_before + added);
+      UnfoldedSequence unfolded(scene_, source_, child);
       if (edges > 1) unfolded.begin_at({along.data(), edges});
-      if (!unfolded.solve(target, wavelength_, geometry_)) continue;
-      const double bound = power_bound(scene_, plan_, geometry_);
+      if (!unfolded.solve(target, wavelength_, solved_)) continue;
+      const double bound = power_bound(scene_, plan_, child, solved_);
       if (child.size() > 1 && bound < effort_.negligible_share * known_[path.cell]) continue;
-      const auto leg = blocked_leg(scene_, tracer_, child, geometry_, shadow_rays_);
+      const auto leg = blocked_leg(scene_, tracer_, child, solved_, shadow_rays_);
       proposal.free = !leg;
       if (leg) {
+        const bool may_go_on = static_cast<int>(size) < longest && static_cast<int>(edges) < most;
         if (!may_go_on || ++blocked > effort_.detours_kept) continue;
         proposal.leg = static_cast<std::uint8_t>(*leg);
       } else {
@@ -141,8 +152,15 @@ class Scout {
     ways_.clear();
     const auto [from, to] = unfolded_leg(interactions, leg);
     for (const std::uint32_t rim : rims_found_) add(rim, from, to);
+    // The edges of a solid that hides `to` from the first and `from` from the second.
+    for (const std::uint32_t first : rims_found_) {
+      const Wedge& wedge = scene_.wedges.wedges[first];
+      if (!seen_from(wedge, from, to) || seen_from(wedge, to, from)) continue;
+      for (const std::uint32_t patch : {wedge.patch0, wedge.patchn})
+        for (const std::uint32_t second : rims_.of(patch)) add_pair(first, second, from, to);
+    }
     std::sort(ways_.begin(), ways_.end(), [](const WayAround& a, const WayAround& b) {
-      return std::tie(a.length, a.wedge) < std::tie(b.length, b.wedge);
+      return std::tie(a.length, a.wedge, a.second) < std::tie(b.length, b.wedge, b.second);
     });
   }
 
@@ -190,10 +208,32 @@ class Scout {
 
   void add(std::uint32_t wedge_index, const Vec3& from, const Vec3& to) {
     const Wedge& wedge = scene_.wedges.wedges[wedge_index];
-    const double along = std::clamp(crossing(wedge.start, wedge.direction, from, to), 0.0, wedge.length);
+    const double along = passed_at(wedge, from, to);
     const Vec3 corner = wedge.point(along);
     if (!leads_outside(wedge, from - corner) || !leads_outside(wedge, to - corner)) return;
-    ways_.push_back({wedge_index, along, distance(from, corner) + distance(corner, to)});
+    ways_.push_back({wedge_index, no_index, along, 0, distance(from, corner) + distance(corner, to)});
+  }
+
+  /// The point of an edge that the way from a to b passes nearest.
+  static double passed_at(const Wedge& wedge, const Vec3& a, const Vec3& b) {
+    return std::clamp(crossing(wedge.start, wedge.direction, a, b), 0.0, wedge.length);
+  }
+
+  /// True if `end` lies outside the solid of an edge that the way from there to `other` passes.
+  static bool seen_from(const Wedge& wedge, const Vec3& end, const Vec3& other) {
+    return leads_outside(wedge, end - wedge.point(passed_at(wedge, end, other)));
+  }
+
+  void add_pair(std::uint32_t first_index, std::uint32_t second_index, const Vec3& from, const Vec3& to) {
+    const Wedge &first = scene_.wedges.wedges[first_index], &second = scene_.wedges.wedges[second_index];
+    if (first_index == second_index || !seen_from(second, to, from) || seen_from(second, from, to)) return;
+    const double along2 = passed_at(second, first.point(passed_at(first, from, to)), to);
+    const Vec3 corner2 = second.point(along2);
+    const double along1 = passed_at(first, from, corner2);
+    const Vec3 corner1 = first.point(along1);
+    if (distance(corner1, corner2) < 1e-3) return;  // they meet: one corner
+    ways_.push_back({first_index, second_index, along1, along2,
+                     distance(from, corner1) + distance(corner1, corner2) + distance(corner2, to)});
   }
 
   const Scene& scene_;
@@ -206,7 +246,7 @@ class Scout {
   const PatchRims& rims_;
   const Effort effort_;
   const double wavelength_, unit_gain_;
-  PathGeometry geometry_;
+  PathGeometry geometry_, solved_;
   std::vector<std::uint32_t> patches_, rims_found_;
   std::vector<WayAround> ways_;
   std::uint64_t shadow_rays_ = 0;

@@ -13,8 +13,9 @@
 
 namespace grimaldi {
 
-/// The blocked paths of `discovered` with one more edge: free ones as seeds, those that something else blocks as
-/// blocked paths in their turn.
+/// The blocked paths of `discovered` with one more edge, or both edges of a face of a solid that hides either end of
+/// the leg from the edge nearer to the other (a flat roof, a wall between two corners): free ones as seeds, those that
+/// something else blocks as blocked paths in their turn.
 ///
 /// Candidates are the rims of the patches that stand in the blocked leg (of the four next to either end), and the rims
 /// of the patches next to those. Of the shortest ways around that a path can take and whose bound is not negligible in

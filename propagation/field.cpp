@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/constants.h"
 #include "propagation/antenna.h"
@@ -21,35 +22,6 @@ ComplexVec3 combine(Complex a, const Vec3& u, Complex b, const Vec3& v) {
   return {a * u.x + b * v.x, a * u.y + b * v.y, a * u.z + b * v.z};
 }
 Complex dot(const ComplexVec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-ComplexVec3 operator*(Complex s, const ComplexVec3& a) { return {s * a.x, s * a.y, s * a.z}; }
-
-/// ε beyond a boundary: > 0 on its dark side, capped at π.
-double beyond_boundary(const Wedge& wedge, const EdgePassage& passage, Boundary boundary) {
-  const double sum = passage.phi_in + passage.phi_out;
-  switch (boundary) {
-    case Boundary::incident:
-      return std::min(std::abs(passage.phi_in - passage.phi_out) - pi, pi);
-    // The two sides of a thin screen are one mirror: its image wave has one edge term, not two (Sommerfeld).
-    case Boundary::face0:
-      return std::min(wedge.free_rim ? std::min(sum, 4 * pi - sum) - pi : sum - pi, pi);
-    case Boundary::facen:
-      return std::min(2 * wedge.exterior_angle - sum - pi, pi);
-  }
-  return pi;
-}
-
-/// Unit vectors along and across the edge's cone for a wave of direction k: φ̂ = ê × k/|ê × k|, β̂ = φ̂ × k. Turned about
-/// the edge as k is.
-struct ConeFrame {
-  Vec3 phi, beta;
-  ConeFrame(const Vec3& edge, const Vec3& k) : phi(normalized(cross(edge, k))), beta(cross(phi, k)) {}
-};
-
-/// Curvature of a wavefront: principal radii along two unit vectors across the ray.
-struct Wavefront {
-  Vec3 along1, along2;
-  double radius1, radius2;
-};
 
 /// Reflected field vector; k → k − 2 (k·n) n.
 ComplexVec3 reflect(const ComplexVec3& field, const Vec3& k, const Vec3& normal, const ReflectionCoefficients& r) {
@@ -72,35 +44,18 @@ Complex end_weight(const Wedge& wedge, const EdgePassage& passage, double wavele
   return weight;
 }
 
-/// True if the azimuth of a way of length s from the edge runs along its face `patch`.
-bool along_face(const Wedge& wedge, std::uint32_t patch, double azimuth, double s) {
-  const double grazing = 5e-3 / s;  // rad; edges lie on their face to the millimetres of a patch's plane
-  return (patch == wedge.patch0 && azimuth < grazing) ||
-         (patch == wedge.patchn && azimuth > wedge.exterior_angle - grazing);
-}
-
-/// True if the wave comes from another edge along a face that both bound. What arrives is then the wave and its image
-/// in one, and the edge's two terms would count it twice. The same for both directions of the way.
-bool grazes_common_face(const Scene& scene, const EdgePassage& before, const EdgePassage& here) {
-  const Wedge& first = scene.wedges.wedges[before.wedge];
-  const Wedge& second = scene.wedges.wedges[here.wedge];
-  for (const std::uint32_t patch : {first.patch0, first.patchn})
-    if ((patch == second.patch0 || patch == second.patchn) &&
-        (along_face(first, patch, before.phi_out, before.s_out) || along_face(second, patch, here.phi_in, here.s_in)))
-      return true;
-  return false;
-}
-
 /// What a face does to a wave in the cone frames of an edge: rows β̂, φ̂ of the image wave, columns β̂, φ̂ of the incident
 /// one.
 struct Dyadic {
   Complex bb, bp, pb, pp;
 };
 
+/// For a way of length `way` to the edge, in direction k. A way along the face is a wave of some width: it meets the
+/// face at no less than 1/√(k way).
 Dyadic image_dyadic(const Plan& plan, std::uint32_t material, std::size_t band, const Vec3& edge, const Vec3& k,
-                    const Vec3& normal) {
-  const double cosine = dot(k, normal);
-  const auto r = face_reflection(plan, material, band, std::min(1.0, std::abs(cosine)));
+                    double way, const Vec3& normal) {
+  const double cosine = dot(k, normal), least_cosine = std::min(1.0, 1 / std::sqrt(plan.wavenumber[band] * way));
+  const auto r = face_reflection(plan, material, band, std::clamp(std::abs(cosine), least_cosine, 1.0));
   const Vec3 image = k - 2 * cosine * normal;
   Vec3 s = cross(k, normal);
   const double sine = norm(s);
@@ -113,38 +68,11 @@ Dyadic image_dyadic(const Plan& plan, std::uint32_t material, std::size_t band, 
   return {element(out.beta, in.beta), element(out.beta, in.phi), element(out.phi, in.beta), element(out.phi, in.phi)};
 }
 
-/// The mean of the face's dyadic for the way there and, transposed, for the way back (φ̂ turns round with the ray):
-/// reciprocal, and unchanged at the reflection boundary, where both are the same.
-Dyadic reciprocal_image(const Plan& plan, std::uint32_t material, std::size_t band, const Vec3& edge, const Vec3& k_in,
-                        const Vec3& k_out, const Vec3& normal) {
-  const Dyadic there = image_dyadic(plan, material, band, edge, k_in, normal);
-  const Dyadic back = image_dyadic(plan, material, band, edge, -k_out, normal);
-  return {0.5 * (there.bb + back.bb), 0.5 * (there.bp - back.pb), 0.5 * (there.pb - back.bp),
-          0.5 * (there.pp + back.pp)};
-}
+/// The same for the way back: transposed (φ̂ turns round with the ray).
+Dyadic reversed(const Dyadic& d) { return {d.bb, -d.pb, -d.bp, d.pp}; }
 
-/// The waves of an edge over the incident field continued: of the incident wave and of its images in the two faces.
-struct EdgeWaves {
-  Complex incident, face0, facen;
-};
-
-EdgeWaves edge_waves(DiffractionModel model, bool faces, const Wedge& wedge, const EdgePassage& passage,
-                     double effective, double wavenumber) {
-  if (model == DiffractionModel::utd) {
-    const double phase = wavenumber * effective * passage.sin_beta * passage.sin_beta;
-    const auto waves = wedge_waves(wedge.exterior_angle, passage.phi_in, passage.phi_out, {phase, phase, phase, phase},
-                                   BoundarySide::lit);
-    const auto& t = waves.term;
-    // The two sides of a thin screen are one mirror.
-    return {t[0] + t[1], wedge.free_rim ? t[2] + t[3] : t[3], t[2]};
-  }
-  const auto wave = [&](Boundary boundary) {
-    const double epsilon = beyond_boundary(wedge, passage, boundary);
-    // On the boundary itself the way past the edge counts as free, as shadow rays have it.
-    return edge_wave(fresnel_parameter(effective, 2 * pi / wavenumber, passage.sin_beta, epsilon), epsilon > 0);
-  };
-  if (!faces) return {wave(Boundary::incident), 0, 0};
-  return {wave(Boundary::incident), wave(Boundary::face0), wedge.free_rim ? 0 : wave(Boundary::facen)};
+Dyadic mean(const Dyadic& a, const Dyadic& b) {
+  return {0.5 * (a.bb + b.bb), 0.5 * (a.bp + b.bp), 0.5 * (a.pb + b.pb), 0.5 * (a.pp + b.pp)};
 }
 
 /// True if the faces of an edge have waves of their own.
@@ -152,38 +80,74 @@ bool faces_count(const Plan& plan) {
   return plan.request.reflection || plan.request.diffraction_model == DiffractionModel::utd;
 }
 
-/// Bound on |U| of a straight edge: its value at the boundary, its asymptote beyond (|w| decreases and stays below
-/// √2/(π v)).
-double edge_wave_bound(double v) { return v < 0.45 ? 0.5 : 1 / (std::sqrt(2.0) * pi * v); }
+/// The faces of one edge as its wave meets them: dyadics (sound: bb alone). The mean of a face's dyadic for the way
+/// there and for the way back: reciprocal, and unchanged at the reflection boundary, where both are the same. Along a
+/// face that the edge before (`came`) or after (`leaves`) shares, the way between the two alone.
+class EdgeFaces {
+ public:
+  EdgeFaces(const Plan& plan, const Wedge& wedge, const EdgePassage& passage, std::size_t band, const Vec3& k_in,
+            const Vec3& k_out, std::uint32_t came, std::uint32_t leaves) {
+    const auto dyadic = [&](std::uint32_t patch, std::uint32_t material, const Vec3& normal) -> Dyadic {
+      if (plan.request.kind != WaveKind::radio) return {face_reflection(plan, material, band, 1).te, 0, 0, 0};
+      const auto there = [&] {
+        return image_dyadic(plan, material, band, wedge.direction, k_in, passage.s_in, normal);
+      };
+      const auto back = [&] {
+        return reversed(image_dyadic(plan, material, band, wedge.direction, -k_out, passage.s_out, normal));
+      };
+      if (patch == came && patch != leaves) return there();
+      if (patch == leaves && patch != came) return back();
+      return mean(there(), back());
+    };
+    face0_ = dyadic(wedge.patch0, wedge.material0, wedge.normal0);
+    if (!wedge.free_rim) facen_ = dyadic(wedge.patchn, wedge.materialn, wedge.normaln());
+  }
+
+  /// A wave {β̂, φ̂} (sound: {pressure, 0}) as the term of a boundary has it: itself or its image.
+  std::array<Complex, 2> seen_at(Boundary boundary, const std::array<Complex, 2>& wave) const {
+    if (boundary == Boundary::incident) return wave;
+    const Dyadic& d = boundary == Boundary::face0 ? face0_ : facen_;
+    return {d.bb * wave[0] + d.bp * wave[1], d.pb * wave[0] + d.pp * wave[1]};
+  }
+
+ private:
+  Dyadic face0_{}, facen_{};
+};
 
 }  // namespace
 
-double power_bound(const Scene& scene, const Plan& plan, const PathGeometry& geometry) {
-  const double wavelength = 2 * pi / plan.wavenumber.front();
+double power_bound(const Scene& scene, const Plan& plan, std::span<const Interaction> interactions,
+                   const PathGeometry& geometry) {
   constexpr double highest_gain = 1.65;
-  double bound =
-      plan.request.kind == WaveKind::radio ? highest_gain * std::pow(wavelength / (4 * pi), 2) : 1 / (4 * pi);
-  // Lengths of a chain of edges: √L √(ρ/(s(s+ρ))) with L ≤ s_out, and ρ at most the whole way so far.
-  double way = geometry.edge_count == 0 ? geometry.length : geometry.edges[0].s_in;
-  bound /= way * way;
+  const double wavenumber = plan.wavenumber.front();
+  const double unit =
+      plan.request.kind == WaveKind::radio ? highest_gain / (4 * wavenumber * wavenumber) : 1 / (4 * pi);
+  if (geometry.edge_count == 0) return unit / (geometry.length * geometry.length);
+  const EdgeChain chain = edge_chain(scene, interactions, geometry);
+  double share = 0.5;
+  for (std::size_t i = 0; i + 1 < geometry.edge_count; ++i)
+    share = std::max(share, double_edge_share(chain.coupling[i]));
+  double amplitude = chain.amplitude;
+  const bool utd = plan.request.diffraction_model == DiffractionModel::utd;
   for (std::size_t i = 0; i < geometry.edge_count; ++i) {
     const EdgePassage& passage = geometry.edges[i];
     const Wedge& wedge = scene.wedges.wedges[passage.wedge];
-    const double effective = passage.s_in * passage.s_out / (passage.s_in + passage.s_out);
-    double sum = 0;
-    for (const Boundary boundary : {Boundary::incident, Boundary::face0, Boundary::facen}) {
-      sum += edge_wave_bound(
-          fresnel_parameter(effective, wavelength, passage.sin_beta, beyond_boundary(wedge, passage, boundary)));
-      if (!faces_count(plan)) break;
-    }
+    const double size = passage.sin_beta * std::sqrt(2 * wavenumber * chain.distance[i]);
+    const auto bound = [&](double epsilon) {
+      return double_edge_bound(size * std::sin(0.5 * std::min(std::abs(epsilon), pi)), share);
+    };
+    double sum = bound(beyond_boundary(wedge, passage, Boundary::incident));
+    if (faces_count(plan))
+      sum += bound(beyond_boundary(wedge, passage, Boundary::face0)) +
+             bound(beyond_boundary(wedge, passage, Boundary::facen));
     // UTD has a second incident term, the one of the boundary beside the other face.
-    if (plan.request.diffraction_model == DiffractionModel::utd)
-      sum += edge_wave_bound(fresnel_parameter(effective, wavelength, passage.sin_beta, pi));
+    if (utd) sum += bound(pi);
     if (!passage.inside) sum *= 0.75;
-    bound *= sum * sum * effective * way / (passage.s_out * (passage.s_out + way));
-    way += passage.s_out;
+    // A pair of terms counts each of its edges once: within a chain, an edge between two pairs over its own wave.
+    if (i > 0 && i + 1 < geometry.edge_count) sum *= 2 * share;
+    amplitude *= sum;
   }
-  return bound;
+  return unit * amplitude * amplitude;
 }
 
 double boundary_parameter(const Scene& scene, const PathGeometry& geometry, std::size_t edge, Boundary boundary,
@@ -200,78 +164,98 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
                 std::span<std::array<Complex, 2>> field) {
   const bool radio = plan.request.kind == WaveKind::radio;
   const bool faces = faces_count(plan);
-  const std::size_t legs = geometry.count - 1;
+  const std::size_t legs = geometry.count - 1, edges = geometry.edge_count;
   std::array<Vec3, max_depth + 1> k;
   for (std::size_t i = 0; i < legs; ++i) k[i] = normalized(geometry.points[i + 1] - geometry.points[i]);
   const Vec3 launched = radio ? radiated_field(transmitter.antenna, k[0]) : Vec3{};
   const PolarFrame receiver = polar_frame(-k[legs - 1]);
+  EdgeChain chain;
+  chain.amplitude = 1 / geometry.length;
+  if (edges > 0) chain = edge_chain(scene, interactions, geometry);
 
   for (std::size_t band = 0; band < plan.bands(); ++band) {
     const double wavenumber = plan.wavenumber[band], wavelength = 2 * pi / wavenumber;
-    ComplexVec3 e{launched.x, launched.y, launched.z};
-    Complex pressure = 1;
-    double amplitude = geometry.edge_count == 0 ? 1 / geometry.length : 1 / geometry.edges[0].s_in;
-    Wavefront front{};
-    std::size_t edge_number = 0;
+    // Between two edges there is one wave for each term of the edge before; at the ends of the path one in all.
+    std::array<ComplexVec3, 4> wave{ComplexVec3{launched.x, launched.y, launched.z}};
+    if (!radio) wave[0].x = 1;
+    std::size_t waves = 1, edge_number = 0;
+    Complex weight = 1;
+    EdgeTerms before;
+    std::uint32_t came = no_index;
     for (std::size_t i = 0; i < interactions.size(); ++i) {
       if (!is_edge(interactions[i])) {
         const Patch& patch = scene.patches.patches[interactions[i]];
         const auto r = face_reflection(plan, patch.material, band, std::min(1.0, std::abs(dot(k[i], patch.normal))));
-        if (radio)
-          e = reflect(e, k[i], patch.normal, r);
-        else
-          pressure *= r.te;
-        // A mirror turns the principal directions of the wavefront and leaves its radii.
-        for (Vec3* along : {&front.along1, &front.along2}) *along -= 2 * dot(*along, patch.normal) * patch.normal;
+        for (std::size_t a = 0; a < waves; ++a) {
+          if (radio)
+            wave[a] = reflect(wave[a], k[i], patch.normal, r);
+          else
+            wave[a].x *= r.te;
+        }
         continue;
       }
       const EdgePassage& passage = geometry.edges[edge_number];
       const Wedge& wedge = scene.wedges.wedges[passage.wedge];
+      const bool first = edge_number == 0, last = edge_number + 1 == edges;
+      weight *= end_weight(wedge, passage, wavelength, wavenumber);
+      std::uint32_t leaves = no_index;
+      if (!last && is_edge(interactions[i + 1])) leaves = grazed_face(scene, passage, geometry.edges[edge_number + 1]);
+      // The wave along a face that both edges bound is there as itself and as its image.
+      if (faces && leaves != no_index) weight *= 0.5;
+      EdgeTerms terms =
+          edge_terms(plan.request.diffraction_model, faces, wedge, passage, chain.distance[edge_number], wavenumber);
+      if (!first && !last)
+        for (std::size_t t = 0; t < terms.count; ++t)
+          terms.term[t].slope = std::min(terms.term[t].slope, 4 * terms.term[t].plain);
       const ConeFrame in(wedge.direction, k[i]), out(wedge.direction, k[i + 1]);
-      // Radius of the incident wavefront in the plane of the ray and the edge, and effective distance.
-      double radius = passage.s_in, effective = passage.s_in * passage.s_out / (passage.s_in + passage.s_out);
-      if (edge_number > 0) {
-        const double c1 = dot(front.along1, in.beta), c2 = dot(front.along2, in.beta);
-        radius = 1 / (c1 * c1 / front.radius1 + c2 * c2 / front.radius2);
-        effective = passage.s_out * (radius + passage.s_out) * front.radius1 * front.radius2 /
-                    (radius * (front.radius1 + passage.s_out) * (front.radius2 + passage.s_out));
+      std::optional<EdgeFaces> at_faces;
+      if (faces) at_faces.emplace(plan, wedge, passage, band, k[i], k[i + 1], came, leaves);
+      std::array<std::array<Complex, 2>, 4> arriving;
+      for (std::size_t a = 0; a < waves; ++a) {
+        if (radio)
+          arriving[a] = {dot(wave[a], in.beta), dot(wave[a], in.phi)};
+        else
+          arriving[a] = {wave[a].x, 0.0};
       }
-      const EdgeWaves u = edge_waves(plan.request.diffraction_model, faces, wedge, passage, effective, wavenumber);
-      Complex weight = end_weight(wedge, passage, wavelength, wavenumber);
-      if (i > 0 && is_edge(interactions[i - 1]) && grazes_common_face(scene, geometry.edges[edge_number - 1], passage))
-        weight *= 0.5;
-      if (radio) {
-        Complex beta = u.incident * dot(e, in.beta), phi = u.incident * dot(e, in.phi);
-        if (faces) {
-          const Complex e_beta = dot(e, in.beta), e_phi = dot(e, in.phi);
-          const auto add_image = [&](Complex image, const Vec3& normal, std::uint32_t material) {
-            const Dyadic d = reciprocal_image(plan, material, band, wedge.direction, k[i], k[i + 1], normal);
-            beta += image * (d.bb * e_beta + d.bp * e_phi);
-            phi += image * (d.pb * e_beta + d.pp * e_phi);
-          };
-          add_image(u.face0, wedge.normal0, wedge.material0);
-          if (!wedge.free_rim) add_image(u.facen, wedge.normaln(), wedge.materialn);
+      // Per term: all that arrives, through its face. A first edge leaves its factors to the pairs with the second.
+      std::array<std::array<Complex, 2>, 4> leaving{};
+      for (std::size_t t = 0; t < terms.count; ++t) {
+        const EdgeTerm& term = terms.term[t];
+        std::array<Complex, 2> sum{};
+        for (std::size_t a = 0; a < waves; ++a) {
+          Complex factor = 1;
+          if (edge_number == 1)
+            factor = pair_wave(before.term[a], term, chain.coupling[0]);
+          else if (!first)
+            factor = continued_wave(before.term[a], term, chain.coupling[edge_number - 1]);
+          else if (last)
+            factor = term.value();
+          sum[0] += factor * arriving[a][0];
+          sum[1] += factor * arriving[a][1];
         }
-        e = weight * combine(beta, out.beta, phi, out.phi);
-      } else {
-        Complex sum = u.incident;
-        if (faces) {
-          sum += face_reflection(plan, wedge.material0, band, 1).te * u.face0;
-          if (!wedge.free_rim) sum += face_reflection(plan, wedge.materialn, band, 1).te * u.facen;
-        }
-        pressure *= weight * sum;
+        const auto seen = faces ? at_faces->seen_at(term.boundary, sum) : sum;
+        leaving[last ? 0 : t][0] += seen[0];
+        leaving[last ? 0 : t][1] += seen[1];
       }
-      amplitude *= std::sqrt(effective * radius / (passage.s_out * (passage.s_out + radius)));
-      front = {out.phi, out.beta, passage.s_out, radius + passage.s_out};
+      waves = last ? 1 : terms.count;
+      for (std::size_t a = 0; a < waves; ++a) {
+        if (radio)
+          wave[a] = combine(leaving[a][0], out.beta, leaving[a][1], out.phi);
+        else
+          wave[a].x = leaving[a][0];
+      }
+      before = terms;
+      came = leaves;
       ++edge_number;
     }
     const double scale = radio ? wavelength / (4 * pi) : 1 / std::sqrt(4 * pi);
-    const Complex carrier = std::polar(amplitude * scale * std::exp(-plan.attenuation[band] * geometry.length),
-                                       -std::remainder(wavenumber * geometry.length, 2 * pi));
+    const Complex carrier =
+        weight * std::polar(chain.amplitude * scale * std::exp(-plan.attenuation[band] * geometry.length),
+                            -std::remainder(wavenumber * geometry.length, 2 * pi));
     if (radio)
-      field[band] = {carrier * dot(e, receiver.theta), carrier * dot(e, receiver.phi)};
+      field[band] = {carrier * dot(wave[0], receiver.theta), carrier * dot(wave[0], receiver.phi)};
     else
-      field[band] = {carrier * pressure, 0.0};
+      field[band] = {carrier * wave[0].x, 0.0};
   }
 }
 

@@ -152,7 +152,7 @@ class Grower {
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (edges && points[i].edge_weight == 0) continue;
       if (!unfolded.solve(centre + points[i].offset, wavelength_, work.geometry)) continue;
-      if (threshold > 0 && power_bound(scene_, plan_, work.geometry) < threshold) {
+      if (threshold > 0 && power_bound(scene_, plan_, interactions, work.geometry) < threshold) {
         // The bound is smooth: one point speaks for the cell.
         if (pair.visible == 0) return Answer::negligible;
         break;

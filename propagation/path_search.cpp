@@ -1,9 +1,11 @@
 #include "propagation/path_search.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "propagation/detour.h"
 #include "propagation/look_back.h"
+#include "propagation/near_edges.h"
 
 namespace grimaldi {
 
@@ -52,6 +54,12 @@ SequenceTable search_for_point(const Scene& scene, const Tracer& tracer, const P
   Grown grown;
   grown.known = {power};
   grow_and_lead_around(scene, tracer, plan, transmitter, spot, 0, most_edges(request), here, grown, {}, stop);
+  std::sort(grown.pairs.begin(), grown.pairs.end(), [](const Pair& a, const Pair& b) {
+    return a.power != b.power ? a.power > b.power : a.sequence < b.sequence;
+  });
+  std::vector<std::uint32_t> arriving;
+  for (const Pair& pair : grown.pairs) arriving.push_back(pair.sequence);
+  add_near_edges(scene, tracer, plan, transmitter, point, arriving, here.sequences, shadow_rays, stop);
   shadow_rays += grown.shadow_rays + here.shadow_rays;
   SequenceTable found;
   for (std::size_t i = 0; i < here.sequences.size(); ++i)

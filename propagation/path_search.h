@@ -22,7 +22,8 @@ void grow_and_lead_around(const Scene& scene, const Tracer& tracer, const Plan& 
                           Grown& grown, const std::function<void(double)>& progress, const std::atomic<bool>* stop);
 
 /// The sequences, beyond the known ones, that lead around what blocks those on their way to one point, where paths of
-/// power `power` (first band) arrive by the known ones. `shadow_rays` grows by the rays asked.
+/// power `power` (first band) arrive by the known ones, and those over edges beside free legs (`add_near_edges`).
+/// `shadow_rays` grows by the rays asked.
 SequenceTable search_for_point(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
                                const Vec3& point, double power, const SequenceTable& known, std::uint64_t& shadow_rays,
                                const std::atomic<bool>* stop);

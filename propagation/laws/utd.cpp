@@ -41,6 +41,15 @@ std::array<double, 4> wedge_turns(double exterior_angle, double phi_in, double p
   return {turn(difference, 1), turn(difference, -1), turn(sum, 1), turn(sum, -1)};
 }
 
+WedgeFactors wedge_factors(double n, double phase_distance, double turn) {
+  GRIMALDI_EXPECT(n > 0 && phase_distance >= 0);
+  const double angle = std::fabs(turn);
+  const double half = std::fabs(sine_cosine(0.5 * angle).sine);
+  const SineCosine part = sine_cosine(angle * (0.5 / n));
+  const double ratio = angle > 0 ? half / (n * part.sine) : 1;
+  return {std::sqrt(2 * phase_distance) * half, ratio * part.cosine, ratio * ratio};
+}
+
 Complex wedge_wave(double n, double phase_distance, double turn, bool dark) {
   GRIMALDI_EXPECT(n > 0 && phase_distance >= 0);
   const Factor factor = factor_of(0.5 / n, n, phase_distance, turn);

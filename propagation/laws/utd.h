@@ -39,6 +39,17 @@ std::array<double, 4> wedge_turns(double exterior_angle, double phi_in, double p
 /// Utd.TermAgainstManyDigits). That of ε itself moves the argument of w by √(kL/2) of it.
 std::complex<double> wedge_wave(double n, double phase_distance, double turn, bool dark);
 
+/// A term in its parts: U = ± plain · ½ w(e^{3jπ/4} argument), + on the dark side.
+struct WedgeFactors {
+  double argument;  ///< √(2kL) |sin(ε/2)|
+  double plain;     ///< m cos(ε/2n), m = sin(|ε|/2)/(n sin(|ε|/2n)); 1 at ε = 0
+  double slope;     ///< m²: what the derivative by ε has in its place, away from the boundary; 1 at ε = 0
+};
+
+/// Formula: plain/sin(ε/2) = cot(ε/2n)/n, whose derivative is that of 1/sin(ε/2) times slope, small angles understood.
+/// Inputs and error: those of wedge_wave.
+WedgeFactors wedge_factors(double n, double phase_distance, double turn);
+
 /// The same over spans of one length. A turn of 0 counts as `side` says.
 void wedge_waves(double n, std::span<const double> phase_distance, std::span<const double> turn,
                  std::span<std::complex<double>> waves, BoundarySide side = BoundarySide::dark);

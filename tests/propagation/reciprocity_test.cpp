@@ -77,8 +77,7 @@ std::string sorted_letters(std::string text) {
 double power_of(const PathStory& path) { return std::norm(path.amplitude[0]); }
 
 // One edge and at most one reflection: what both ends find is the same path with the same strength: the edge's law is
-// symmetric in its legs. What only one end finds is chance. Two edges: the second's distance parameter takes the wave
-// that arrives, so the product depends on the order.
+// symmetric in its legs, that of two edges in both. What only one end finds is chance.
 TEST_P(Reciprocity, DiffractedPathsAreTheSame) {
   const Scene scene = city(GetParam());
   for (const DiffractionModel model : {DiffractionModel::fsd, DiffractionModel::utd})
@@ -117,6 +116,8 @@ TEST_P(Reciprocity, DiffractedPathsAreTheSame) {
           GetParam().c_str(), same, x.paths[0].size(), y.paths[0].size(), worst, worst_two, lone / total[0],
           test::decibel(total[0] / total[1]), test::decibel(x.total[0] / y.total[0]));
       EXPECT_LT(worst, 1e-6);
+      // Newton's points err by 1e-9 m, which the slopes of a soft face's pair magnify.
+      EXPECT_LT(worst_two, 1e-4);
     }
 }
 

@@ -521,6 +521,7 @@ TEST(Summary, HasTheKeysOfTheContract) {
                            "flux",
                            "mechanism_power",
                            "median_standard_error_dB",
+                           "p95_standard_error_dB",
                            "outputs",
                            "passes",
                            "peak_memory_bytes",

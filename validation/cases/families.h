@@ -23,8 +23,6 @@ Cases knife_edge_cases();
 Cases engine_wedge_cases();
 /// One edge in the engine, all round it, down to fractions of a wavelength, against the exact field.
 Cases engine_corner_cases();
-/// A wall with two edges of one top, in the engine, against boundary elements.
-Cases thick_screen_cases();
 /// A strip, a slit and a rectangular plate in the engine against integrals and boundary elements.
 Cases screen_cases();
 /// Flat roofs, one and two behind each other, in the engine against boundary elements.
@@ -33,6 +31,9 @@ Cases roof_cases();
 Cases walk_cases();
 /// The engine with transmitter and receiver exchanged.
 Cases reciprocity_cases();
+/// Two edges in the engine: two screens against the double Fresnel integral, a flat roof against boundary elements, and
+/// what must not jump.
+Cases double_edge_cases();
 /// What must be conserved.
 Cases energy_cases();
 /// The figures of the papers, in the printed and in the repaired form.

@@ -1,0 +1,66 @@
+#include "propagation/near_edges.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "core/constants.h"
+#include "propagation/connect.h"
+#include "propagation/fermat.h"
+
+namespace grimaldi {
+namespace {
+
+constexpr std::size_t most_parents = 64;
+constexpr double transition_end = 6;
+
+/// True if the way from a to b over the edge is at most `most` longer than the straight one.
+bool passes_near(const Wedge& wedge, const Vec3& a, const Vec3& b, double straight, double most) {
+  const Vec3 pa = a - wedge.start, pb = b - wedge.start;
+  const double za = dot(pa, wedge.direction), zb = dot(pb, wedge.direction);
+  const double ra = std::sqrt(std::max(0.0, norm2(pa) - za * za)), rb = std::sqrt(std::max(0.0, norm2(pb) - zb * zb));
+  // The way over the whole line is the shortest there is.
+  const double z = za - zb, r = ra + rb, longest = straight + most;
+  if (z * z + r * r > longest * longest || r == 0) return false;
+  const double along = std::clamp((za * rb + zb * ra) / r, 0.0, wedge.length);
+  return std::hypot(za - along, ra) + std::hypot(zb - along, rb) <= longest;
+}
+
+}  // namespace
+
+void add_near_edges(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
+                    const Vec3& point, std::span<const std::uint32_t> arriving, SequenceTable& sequences,
+                    std::uint64_t& shadow_rays, const std::atomic<bool>* stop) {
+  const double wavelength = 2 * pi / plan.wavenumber.front();
+  const double most = wavelength * transition_end * transition_end / 4;
+  const Vec3& source = plan.request.transmitters[transmitter].position;
+  std::vector<std::uint32_t> parents(arriving.begin(), arriving.end());
+  for (std::size_t i = 0; i < std::min(parents.size(), most_parents) && !(stop && *stop); ++i) {
+    const auto found = sequences[parents[i]];
+    const std::vector<Interaction> parent(found.begin(), found.end());  // the table grows below
+    if (static_cast<int>(parent.size()) >= plan.request.depth ||
+        static_cast<int>(count_edges(parent)) >= most_edges(plan.request))
+      continue;
+    PathGeometry geometry, child_geometry;
+    if (!UnfoldedSequence(scene, source, parent).solve(point, wavelength, geometry)) continue;
+    for (std::size_t leg = 0; leg + 1 < geometry.count; ++leg) {
+      const Vec3 &a = geometry.points[leg], &b = geometry.points[leg + 1];
+      const double straight = distance(a, b);
+      for (std::uint32_t w = 0; w < scene.wedges.wedges.size(); ++w) {
+        if (!passes_near(scene.wedges.wedges[w], a, b, straight, most)) continue;
+        std::vector<Interaction> child = parent;
+        child.insert(child.begin() + static_cast<std::ptrdiff_t>(leg), edge_interaction(w));
+        const SequenceHash hash = hash_of(child);
+        if (sequences.find(hash) != SequenceTable::no_sequence) continue;
+        UnfoldedSequence unfolded(scene, source, child);
+        if (!unfolded.solve(point, wavelength, child_geometry) ||
+            blocked_leg(scene, tracer, child, child_geometry, shadow_rays))
+          continue;
+        parents.push_back(sequences.enter(hash, child));
+      }
+    }
+  }
+}
+
+}  // namespace grimaldi

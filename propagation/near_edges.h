@@ -1,0 +1,23 @@
+#pragma once
+// Edges beside free legs: the lit side of shadow boundaries.
+
+#include <atomic>
+#include <span>
+
+#include "propagation/plan.h"
+#include "propagation/sequence.h"
+#include "propagation/tracer.h"
+
+namespace grimaldi {
+
+/// Adds to `sequences` those that pass an edge beside a free leg of a path to `point`: nothing blocks that leg, so
+/// nothing leads the search there, but the edge's wave is part of the total as long as the leg lies in its transition
+/// region. A map finds them by growing from the cells behind the boundary; a point has no such neighbours.
+/// Method: for the paths `arriving` (numbers in `sequences`, at most 64, the first count) with room for one more edge,
+/// every wedge whose detour δ from the leg has 2√(δ/λ) < 6 (where composites end) at the first band; solved and asked
+/// for visibility; what is found so is searched in its turn.
+void add_near_edges(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
+                    const Vec3& point, std::span<const std::uint32_t> arriving, SequenceTable& sequences,
+                    std::uint64_t& shadow_rays, const std::atomic<bool>* stop);
+
+}  // namespace grimaldi
