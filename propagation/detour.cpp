@@ -26,6 +26,13 @@ struct WayAround {
   double along, along_second, length;  ///< m
 };
 
+/// An edge near the blocked leg: where the way around passes it, and which ends of the leg lie outside its solid there.
+struct Rim {
+  std::uint32_t wedge;
+  double along;  ///< m
+  bool sees_start, sees_end;
+};
+
 /// A sequence found by one blocked path.
 struct Proposal {
   std::uint32_t cell, passes;
@@ -77,7 +84,10 @@ class Scout {
     const Vec3 target = grid_.layout.centre(path.cell) + grid_.of(path.cell)[path.point].offset;
     UnfoldedSequence parent(scene_, source_, interactions);
     if (!parent.solve_in_planes(target, wavelength_, geometry_)) return;
-    gather_ways(interactions, path.leg);
+    const int edges_now = static_cast<int>(count_edges(interactions));
+    gather_ways(
+        interactions, path.leg,
+        static_cast<int>(interactions.size()) + 2 <= plan_.request.depth && edges_now + 2 <= most_edges(plan_.request));
     Proposal proposal;
     proposal.cell = path.cell;
     proposal.point = path.point;
@@ -131,7 +141,7 @@ class Scout {
 
  private:
   /// Edges of what stands in the leg and of the patches next to that, shortest way around first.
-  void gather_ways(std::span<const Interaction> interactions, std::size_t leg) {
+  void gather_ways(std::span<const Interaction> interactions, std::size_t leg, bool room_for_two) {
     const Vec3 start = end_of_leg(interactions, leg), end = end_of_leg(interactions, leg + 1);
     const std::uint32_t at_start = face_at(interactions, leg), at_end = face_at(interactions, leg + 1);
     patches_.clear();
@@ -145,23 +155,44 @@ class Scout {
         patches_.push_back(scene_.wedges.wedges[rim].patchn);
       }
     keep_distinct(patches_);
-    rims_found_.clear();
+    rim_numbers_.clear();
     for (const std::uint32_t patch : patches_)
-      for (const std::uint32_t rim : rims_.of(patch)) rims_found_.push_back(rim);
-    keep_distinct(rims_found_);
+      for (const std::uint32_t rim : rims_.of(patch)) rim_numbers_.push_back(rim);
+    keep_distinct(rim_numbers_);
     ways_.clear();
+    rims_found_.clear();
     const auto [from, to] = unfolded_leg(interactions, leg);
-    for (const std::uint32_t rim : rims_found_) add(rim, from, to);
-    // The edges of a solid that hides `to` from the first and `from` from the second.
-    for (const std::uint32_t first : rims_found_) {
-      const Wedge& wedge = scene_.wedges.wedges[first];
-      if (!seen_from(wedge, from, to) || seen_from(wedge, to, from)) continue;
-      for (const std::uint32_t patch : {wedge.patch0, wedge.patchn})
-        for (const std::uint32_t second : rims_.of(patch)) add_pair(first, second, from, to);
+    for (const std::uint32_t number : rim_numbers_) {
+      const Wedge& wedge = scene_.wedges.wedges[number];
+      const double along = passed_at(wedge, from, to);
+      const Vec3 corner = wedge.point(along);
+      const Rim rim{number, along, leads_outside(wedge, from - corner), leads_outside(wedge, to - corner)};
+      rims_found_.push_back(rim);
+      if (rim.sees_start && rim.sees_end)
+        ways_.push_back({number, no_index, along, 0, distance(from, corner) + distance(corner, to)});
     }
+    if (room_for_two) gather_pairs(from, to);
     std::sort(ways_.begin(), ways_.end(), [](const WayAround& a, const WayAround& b) {
       return std::tie(a.length, a.wedge, a.second) < std::tie(b.length, b.wedge, b.second);
     });
+  }
+
+  /// The edges of a solid that hides the end from the first and the start from the second.
+  void gather_pairs(const Vec3& from, const Vec3& to) {
+    const auto found = [&](std::uint32_t number) {
+      return rims_found_.data() +
+             (std::lower_bound(rim_numbers_.begin(), rim_numbers_.end(), number) - rim_numbers_.begin());
+    };
+    for (const std::uint32_t patch : patches_) {
+      firsts_.clear();
+      seconds_.clear();
+      for (const std::uint32_t number : rims_.of(patch)) {
+        const Rim* rim = found(number);
+        if (rim->sees_start != rim->sees_end) (rim->sees_start ? firsts_ : seconds_).push_back(rim);
+      }
+      for (const Rim* first : firsts_)
+        for (const Rim* second : seconds_) add_pair(*first, *second, from, to);
+    }
   }
 
   static void keep_distinct(std::vector<std::uint32_t>& numbers) {
@@ -206,33 +237,19 @@ class Scout {
     return {points[leg] - before * direction, points[leg + 1] + after * direction};
   }
 
-  void add(std::uint32_t wedge_index, const Vec3& from, const Vec3& to) {
-    const Wedge& wedge = scene_.wedges.wedges[wedge_index];
-    const double along = passed_at(wedge, from, to);
-    const Vec3 corner = wedge.point(along);
-    if (!leads_outside(wedge, from - corner) || !leads_outside(wedge, to - corner)) return;
-    ways_.push_back({wedge_index, no_index, along, 0, distance(from, corner) + distance(corner, to)});
-  }
-
   /// The point of an edge that the way from a to b passes nearest.
   static double passed_at(const Wedge& wedge, const Vec3& a, const Vec3& b) {
     return std::clamp(crossing(wedge.start, wedge.direction, a, b), 0.0, wedge.length);
   }
 
-  /// True if `end` lies outside the solid of an edge that the way from there to `other` passes.
-  static bool seen_from(const Wedge& wedge, const Vec3& end, const Vec3& other) {
-    return leads_outside(wedge, end - wedge.point(passed_at(wedge, end, other)));
-  }
-
-  void add_pair(std::uint32_t first_index, std::uint32_t second_index, const Vec3& from, const Vec3& to) {
-    const Wedge &first = scene_.wedges.wedges[first_index], &second = scene_.wedges.wedges[second_index];
-    if (first_index == second_index || !seen_from(second, to, from) || seen_from(second, from, to)) return;
-    const double along2 = passed_at(second, first.point(passed_at(first, from, to)), to);
+  void add_pair(const Rim& rim1, const Rim& rim2, const Vec3& from, const Vec3& to) {
+    const Wedge &first = scene_.wedges.wedges[rim1.wedge], &second = scene_.wedges.wedges[rim2.wedge];
+    const double along2 = passed_at(second, first.point(rim1.along), to);
     const Vec3 corner2 = second.point(along2);
     const double along1 = passed_at(first, from, corner2);
     const Vec3 corner1 = first.point(along1);
     if (distance(corner1, corner2) < 1e-3) return;  // they meet: one corner
-    ways_.push_back({first_index, second_index, along1, along2,
+    ways_.push_back({rim1.wedge, rim2.wedge, along1, along2,
                      distance(from, corner1) + distance(corner1, corner2) + distance(corner2, to)});
   }
 
@@ -247,7 +264,9 @@ class Scout {
   const Effort effort_;
   const double wavelength_, unit_gain_;
   PathGeometry geometry_, solved_;
-  std::vector<std::uint32_t> patches_, rims_found_;
+  std::vector<std::uint32_t> patches_, rim_numbers_;
+  std::vector<Rim> rims_found_;  ///< in the order of rim_numbers_
+  std::vector<const Rim*> firsts_, seconds_;
   std::vector<WayAround> ways_;
   std::uint64_t shadow_rays_ = 0;
 };
