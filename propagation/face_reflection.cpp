@@ -6,7 +6,7 @@ ReflectionCoefficients face_reflection(const Plan& plan, std::uint32_t material,
                                        double cos_incidence) {
   const FaceMaterial& face = plan.materials[material];
   if (plan.request.kind == WaveKind::radio)
-    return slab_reflection(face.permittivity[band], face.thickness, plan.wavenumber[band], cos_incidence);
+    return face.slab[band](cos_incidence);
   const double factor = wall_reflection(face.absorption[band]);
   return {factor, factor};
 }

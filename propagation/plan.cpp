@@ -79,9 +79,10 @@ std::vector<FaceMaterial> face_materials(const Plan& plan, const Scene& scene, D
     std::vector<std::vector<BandMessage>> groups;
     for (const double frequency : plan.frequency) {
       Diagnostics heard;
-      if (plan.request.kind == WaveKind::radio)
+      if (plan.request.kind == WaveKind::radio) {
         face.permittivity.push_back(relative_permittivity(material, frequency, heard));
-      else
+        face.slab.emplace_back(face.permittivity.back(), face.thickness, 2 * pi * frequency / plan.speed);
+      } else
         face.absorption.push_back(absorption_coefficient(material, frequency, heard));
       const std::string band = format_frequency(frequency);
       for (const Diagnostic& message : heard.all()) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/contract.h"
+#include "propagation/laws/slab_table.h"
 #include "propagation/plan_file.h"
 #include "scenes/scene.h"
 
@@ -18,6 +19,7 @@ class Tracer;
 struct FaceMaterial {
   std::vector<std::complex<double>> permittivity;  ///< radio: ε' − jε'', per band
   double thickness = 0;                            ///< m; infinity = half-space
+  std::vector<SlabTable> slab;                     ///< radio: reflection, per band
   std::vector<double> absorption;                  ///< sound: α per band
 };
 
