@@ -59,13 +59,13 @@ SceneDescription flat_roof() { return deep_blocks({{0, 10, 0}}, 500, 500); }
 SceneDescription two_roofs() { return deep_blocks({{0, 10, 0}, {30, 10, 1}}, 500, 500); }
 
 constexpr const char* goal = "the goal of a level without steps";
-constexpr const char* end_of_edge =
-    "a defect: the wave of an edge beyond its end changes sign on the plane of its own shadow, the neighbour's wave is "
-    "halved where its point of diffraction passes the corner; for bent rays these are two places, millimetres to "
-    "decimetres apart, and between them a quarter of the wave is missing";
-constexpr const char* missing_pairs =
-    "a defect: paths over two edges of one face are not found (the first edge's wave to the point would start inside "
-    "the solid, which does not count as blocked), so the level falls where the first edge is hidden by the second";
+constexpr const char* skew_faces =
+    "a defect: on the plane of a wall past its corner, and where paths over two edges of the house end behind its back "
+    "wall, partners of a wave are missing; 5.7 dB in metal, horizontal, where only weak waves are left";
+constexpr const char* reflected_pair =
+    "a defect: reflected by the first roof and then over both edges of the second is found only where the wave over "
+    "its "
+    "first edge alone arrives and counts";
 
 /// The bounds of this suite: the goal is 0.5 dB, the others are what was measured, to be tightened.
 const Walk walks[] = {
@@ -133,8 +133,8 @@ const Walk walks[] = {
      1,
      {3, 2.4, 3.1},
      {3, 4.2, 3.1},
-     4,
-     end_of_edge},
+     0.5,
+     goal},
     {"over-a-corner",
      "behind a plate, over the shadow of one of its corners",
      plate,
@@ -142,28 +142,28 @@ const Walk walks[] = {
      1,
      {3, 4.3, 1.7},
      {3, 2.8, 3.4},
-     4,
-     end_of_edge},
+     0.5,
+     goal},
     {"around-a-house",
      "around a house on ground at street level, a mast over the roofs before it",
      house,
      {-40, 3, 14},
-     3,
+     4,
      {150, 0, 1.5},
      {-30, 0, 1.5},
-     45,
-     missing_pairs,
+     7,
+     skew_faces,
      13},
-    {"over-a-roof", "down behind a flat roof", flat_roof, {-40, 0, 2}, 2, {25, 0, 6}, {25, 0, -15}, 10, missing_pairs},
+    {"over-a-roof", "down behind a flat roof", flat_roof, {-40, 0, 2}, 2, {25, 0, 6}, {25, 0, -15}, 0.5, goal},
     {"over-two-roofs",
      "down behind two flat roofs",
      two_roofs,
      {-40, 0, 2},
-     3,
+     4,
      {55, 0, 8},
      {55, 0, -15},
-     20,
-     missing_pairs},
+     2.5,
+     reflected_pair},
 };
 
 /// Levels of the engine at shares of the walk, dB.
