@@ -6,6 +6,7 @@
 
 #include "core/constants.h"
 #include "propagation/detour.h"
+#include "propagation/effort.h"
 #include "propagation/fermat.h"
 #include "propagation/field.h"
 #include "propagation/look_back.h"
@@ -64,12 +65,16 @@ SequenceTable search_for_point(const Scene& scene, const Tracer& tracer, const P
   for (const Arrival& arrival : arrivals)
     strongest.emplace_back(-power_bound(scene, plan, arrival.interactions, arrival.geometry),
                            here.sequences.enter(arrival.hash, arrival.interactions));
-  for (const Pair& pair : grown.pairs) {
-    const auto interactions = here.sequences[pair.sequence];
+  std::vector<std::uint32_t> around =
+      add_second_edges(scene, tracer, plan, transmitter, point, effort_of(request).negligible_share * power,
+                       here.sequences, shadow_rays, stop);
+  for (const Pair& pair : grown.pairs) around.push_back(pair.sequence);
+  for (const std::uint32_t sequence : around) {
+    const auto interactions = here.sequences[sequence];
     PathGeometry geometry;
-    UnfoldedSequence unfolded(scene, plan.request.transmitters[transmitter].position, interactions);
+    UnfoldedSequence unfolded(scene, request.transmitters[transmitter].position, interactions);
     if (unfolded.solve(point, 2 * pi / plan.wavenumber.front(), geometry))
-      strongest.emplace_back(-power_bound(scene, plan, interactions, geometry), pair.sequence);
+      strongest.emplace_back(-power_bound(scene, plan, interactions, geometry), sequence);
   }
   std::sort(strongest.begin(), strongest.end());
   std::vector<std::uint32_t> arriving;

@@ -23,7 +23,7 @@ namespace grimaldi {
 /// Inputs: `hair` (m, see `tie_hair`); `arrivals` with geometry; `find` solves the sequence of a name into an arrival,
 /// false where there is no such path.   Returns: true if `arrivals` changed; what is new comes last.
 /// Valid: the boundaries of edges that are passed between their ends.
-/// Error: 1e-9 rad of azimuth (Ties.*, double-edges/screens/MK03 and MK18, wedges/engine/all-round/on-the-boundary).
+/// Error: 1e-9 rad of azimuth (double-edges/screens/MK03 and MK18, wedges/engine/all-round/on-the-boundary).
 bool settle_ties(const Scene& scene, const Plan& plan, double hair, std::vector<Arrival>& arrivals,
                  const std::function<bool(SequenceHash, Arrival&)>& find);
 
