@@ -29,7 +29,8 @@ struct Place {
 /// The bounds of this suite: the goal is 0.05 dB.
 constexpr const char* goal = "the goal: the laws are reciprocal, and both ways find the paths that count";
 constexpr const char* fact =
-    "a defect: where nothing is blocked, paths over two edges are found by chance, some in one direction alone with any "
+    "a defect: where nothing is blocked, paths over two edges are found by chance, some in one direction alone with "
+    "any "
     "number of rays: 62 paths there and 65 back; the goal is 0.05 dB";
 
 const std::vector<Place>& places() {
