@@ -20,18 +20,6 @@ double coherence(double v) {
   return c * c;
 }
 
-/// Name of `interactions` with number `at` left out, or replaced by `face`.
-SequenceHash without_edge(std::span<const Interaction> interactions, std::size_t at, std::uint32_t face) {
-  SequenceHash hash = empty_sequence;
-  for (std::size_t i = 0; i < interactions.size(); ++i) {
-    if (i != at)
-      hash = extended(hash, interactions[i]);
-    else if (face != no_index)
-      hash = extended(hash, face);
-  }
-  return hash;
-}
-
 double correlation(const std::array<std::complex<double>, 2>& a, const std::array<std::complex<double>, 2>& b,
                    Polarisation polarisation) {
   double sum = 0;
@@ -71,7 +59,7 @@ void CompositeSum::tie_to_composites(std::span<const Arrival> arrivals) {
       for (std::size_t kind = 0; kind < kinds; ++kind) {
         const double v = boundary_parameter(*scene_, arrival.geometry, e, bounded[kind].first, longest);
         if (v >= no_coherence) continue;
-        const std::uint32_t node = node_of(without_edge(arrival.interactions, position, bounded[kind].second));
+        const std::uint32_t node = node_of(hash_without(arrival.interactions, position, bounded[kind].second));
         ties_.push_back({node, a, static_cast<std::uint32_t>(weights_.size())});
         for (const double k : plan_->wavenumber)
           weights_.push_back(coherence(v * std::sqrt(k / plan_->wavenumber.front())));
@@ -94,7 +82,7 @@ void CompositeSum::tie_corners(std::span<const Arrival> arrivals) {
       const EdgePassage& passage = arrivals[a].geometry.edges[e];
       const Wedge& wedge = scene_->wedges.wedges[passage.wedge];
       const double zone = std::sqrt(longest * passage.s_in * passage.s_out / (passage.s_in + passage.s_out));
-      const SequenceHash rest = without_edge(arrivals[a].interactions, position, edge_interaction(0x7fffffffu));
+      const SequenceHash rest = hash_without(arrivals[a].interactions, position, edge_interaction(0x7fffffffu));
       if (wedge.vertex_start != no_index && std::abs(passage.along) < zone)
         ends.push_back({rest, wedge.vertex_start, a});
       if (wedge.vertex_end != no_index && std::abs(wedge.length - passage.along) < zone)

@@ -22,6 +22,7 @@ struct Arrival {
   std::span<const Interaction> interactions;
   PathGeometry geometry;
   std::vector<std::array<std::complex<double>, 2>> field;  ///< [band] → V, H (sound: pressure, 0)
+  std::size_t number = 0;                                  ///< of whoever keeps the list
 };
 
 /// The layer that a path belongs to.

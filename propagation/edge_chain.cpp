@@ -60,6 +60,13 @@ double beyond_boundary(const Wedge& wedge, const EdgePassage& passage, Boundary 
   return pi;
 }
 
+bool is_dark(const Wedge& wedge, const EdgePassage& passage, double epsilon) {
+  constexpr double rounding = 1e-9;  // rad
+  if (std::abs(epsilon) > rounding) return epsilon > 0;
+  const auto [least, most] = std::minmax(passage.phi_in, passage.phi_out);
+  return !wedge.free_rim && (least < rounding || most > wedge.exterior_angle - rounding);
+}
+
 EdgeChain edge_chain(const Scene& scene, std::span<const Interaction> interactions, const PathGeometry& geometry) {
   EdgeChain chain;
   const std::size_t n = geometry.edge_count;
@@ -146,13 +153,14 @@ EdgeTerms edge_terms(DiffractionModel model, bool faces, const Wedge& wedge, con
                                     wedge.free_rim ? Boundary::face0 : Boundary::facen, Boundary::face0};
     constexpr double lit_out[4] = {1, -1, 1, -1}, lit_in[4] = {-1, 1, 1, -1};
     for (std::size_t i = 0; i < 4; ++i)
-      add(wedge_factors(n, phase, turns[i]), turns[i] > 0, lit_out[i], lit_in[i], boundaries[i]);
+      add(wedge_factors(n, phase, turns[i]), is_dark(wedge, passage, turns[i]), lit_out[i], lit_in[i], boundaries[i]);
     return terms;
   }
   const auto add_black = [&](Boundary boundary, double lit_out, double lit_in) {
     const double epsilon = beyond_boundary(wedge, passage, boundary);
     const double half = 0.5 * std::abs(epsilon);
-    add({std::sqrt(2 * phase) * std::sin(half), 1, std::cos(half)}, epsilon > 0, lit_out, lit_in, boundary);
+    add({std::sqrt(2 * phase) * std::sin(half), 1, std::cos(half)}, is_dark(wedge, passage, epsilon), lit_out, lit_in,
+        boundary);
   };
   const double turn = passage.phi_out > passage.phi_in ? -1 : 1;
   add_black(Boundary::incident, turn, -turn);

@@ -20,6 +20,11 @@ enum class Boundary { incident, face0, facen };
 /// ε beyond a boundary: > 0 on its dark side, capped at π, rad.
 double beyond_boundary(const Wedge& wedge, const EdgePassage& passage, Boundary boundary);
 
+/// True if a turn ε beyond a boundary of this passage is on its dark side. On the boundary to within the rounding of
+/// azimuths: lit, but dark if a way runs along a face of a solid, where the wave and its image are one. All places ask
+/// here.
+bool is_dark(const Wedge& wedge, const EdgePassage& passage, double epsilon);
+
 /// Unit vectors along and across the edge's cone for a wave of direction k: φ̂ = ê × k/|ê × k|, β̂ = φ̂ × k. Turned about
 /// the edge as k is.
 struct ConeFrame {
@@ -62,7 +67,7 @@ struct EdgeTerms {
 };
 
 /// Terms of a passage. `utd`: four; `fsd`: the incident one and, with faces, the images in both (one of a thin screen).
-/// `distance` L, m, without sin²β. A direction on the boundary counts as lit, as shadow rays have it.
+/// `distance` L, m, without sin²β. Which side of a boundary: `is_dark`.
 EdgeTerms edge_terms(DiffractionModel model, bool faces, const Wedge& wedge, const EdgePassage& passage,
                      double distance, double wavenumber);
 

@@ -13,6 +13,7 @@
 #include "propagation/fermat.h"
 #include "propagation/field.h"
 #include "propagation/sample.h"
+#include "propagation/ties.h"
 
 namespace grimaldi {
 namespace {
@@ -49,10 +50,11 @@ bool is_strong(const Pair& pair) { return pair.dense != 0; }
 
 class CellEvaluator {
  public:
-  CellEvaluator(const Scene& scene, const Plan& plan, std::size_t transmitter, const CoverageGrid& grid,
-                const Discovered& discovered, CoverageMap& map)
+  CellEvaluator(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
+                const CoverageGrid& grid, const Discovered& discovered, CoverageMap& map)
       : scene_(scene),
         plan_(plan),
+        hair_(tie_hair(tracer.surface_gap())),
         transmitter_(transmitter),
         grid_(grid),
         discovered_(discovered),
@@ -71,8 +73,11 @@ class CellEvaluator {
     const double reference_delay = distance(transmitter.position, grid_.layout.centre(cell)) / plan_.speed;
     std::vector<UnfoldedSequence>& unfolded = unfolded_;
     unfolded.clear();
-    for (const Pair& pair : pairs)
+    sequences_.clear();
+    for (const Pair& pair : pairs) {
       unfolded.emplace_back(scene_, transmitter.position, discovered_.sequences[pair.sequence]);
+      sequences_.push_back(pair.sequence);
+    }
     at_point_.resize(plan_.bands());
     for (std::size_t i = 0; i < points.size(); ++i) at_fine_or_coarse(cell, pairs, i, reference_delay);
     for (std::size_t i = 0; i < grid_.dense_of(cell).size(); ++i) at_dense(cell, pairs, i, reference_delay);
@@ -84,17 +89,20 @@ class CellEvaluator {
   void at_fine_or_coarse(std::size_t cell, std::span<const Pair> pairs, std::size_t i, double reference_delay) {
     const SubPoint& point = grid_.of(cell)[i];
     const bool coarse = point.edge_weight > 0;
+    const Vec3 place = grid_.layout.centre(cell) + point.offset;
     start_point();
-    std::size_t strong = 0;
     // The strong paths first, so that they are a span of their own.
-    for (const bool strong_ones : {true, false}) {
-      for (std::size_t p = 0; p < pairs.size(); ++p) {
-        if (is_strong(pairs[p]) != strong_ones || !(pairs[p].visible >> i & 1)) continue;
-        if (arrive(grid_.layout.centre(cell) + point.offset, pairs[p], p) && has_edge(pairs[p]) == coarse &&
-            !pairs[p].refined)
-          add(pairs[p], coarse ? point.edge_weight : point.weight, reference_delay);
-      }
-      if (strong_ones) strong = arrived_;
+    for (const bool strong_ones : {true, false})
+      for (std::size_t p = 0; p < pairs.size(); ++p)
+        if (is_strong(pairs[p]) == strong_ones && (pairs[p].visible >> i & 1)) arrive(place, p);
+    settle(place, pairs, [](const Pair&) { return true; });
+    std::size_t strong = 0;
+    for (std::size_t a = 0; a < arrived_; ++a) {
+      const Pair& pair = pairs[arrivals_[a].number];
+      strong += is_strong(pair);
+      find_field(a);
+      if (has_edge(pair) == coarse && !pair.refined)
+        add(pair, arrivals_[a], coarse ? point.edge_weight : point.weight, reference_delay);
     }
     if (coarse) {
       cross_terms(arrived_, point.edge_weight, &CellSums::all, 1);
@@ -107,11 +115,16 @@ class CellEvaluator {
   /// The strong paths and their cross terms at a dense point.
   void at_dense(std::size_t cell, std::span<const Pair> pairs, std::size_t i, double reference_delay) {
     const SubPoint& point = grid_.dense_of(cell)[i];
+    const Vec3 place = grid_.layout.centre(cell) + point.offset;
     start_point();
     for (std::size_t p = 0; p < pairs.size(); ++p)
-      if ((pairs[p].dense >> i & 1) && arrive(grid_.layout.centre(cell) + point.offset, pairs[p], p) &&
-          pairs[p].refined)
-        add(pairs[p], point.edge_weight, reference_delay);
+      if (pairs[p].dense >> i & 1) arrive(place, p);
+    settle(place, pairs, is_strong);
+    for (std::size_t a = 0; a < arrived_; ++a) {
+      find_field(a);
+      if (const Pair& pair = pairs[arrivals_[a].number]; pair.refined)
+        add(pair, arrivals_[a], point.edge_weight, reference_delay);
+    }
     cross_terms(arrived_, point.edge_weight, &CellSums::many, 1);
     for (std::size_t band = 0; band < plan_.bands(); ++band) sums_[band].dense.add(point.edge_weight, at_point_[band]);
   }
@@ -135,25 +148,54 @@ class CellEvaluator {
     }
   }
 
-  /// The wave of pair number p at a point is the next of `arrivals_`; false if it does not get there.
-  bool arrive(const Vec3& point, const Pair& pair, std::size_t p) {
+  /// Solves pair number p for a point; if it gets there it is the next of `arrivals_`.
+  bool arrive(const Vec3& point, std::size_t p) {
     if (arrivals_.size() <= arrived_) arrivals_.emplace_back();
-    Arrival& arrival = arrivals_[arrived_];
-    if (!unfolded_[p].solve(point, wavelength_, arrival.geometry)) return false;
-    arrival.hash = discovered_.sequences.hash(pair.sequence);
-    arrival.interactions = discovered_.sequences[pair.sequence];
-    arrival.field.resize(plan_.bands());
-    path_field(scene_, plan_, plan_.request.transmitters[transmitter_], arrival.interactions, arrival.geometry,
-               arrival.field);
+    if (!solve(point, p, arrivals_[arrived_])) return false;
     ++arrived_;
     return true;
   }
 
+  bool solve(const Vec3& point, std::size_t p, Arrival& arrival) {
+    if (!unfolded_[p].solve(point, wavelength_, arrival.geometry)) return false;
+    const std::uint32_t sequence = sequences_[p];
+    arrival.number = p;
+    arrival.hash = discovered_.sequences.hash(sequence);
+    arrival.interactions = discovered_.sequences[sequence];
+    return true;
+  }
+
+  /// What arrives on a shadow boundary, among the pairs that `counts`; strong ones stay first.
+  template <typename Counts>
+  void settle(const Vec3& point, std::span<const Pair> pairs, const Counts& counts) {
+    const auto here = arrivals_.begin() + static_cast<std::ptrdiff_t>(arrived_);
+    if (std::none_of(arrivals_.begin(), here, [&](const Arrival& a) { return has_tie(scene_, plan_, hair_, a); }))
+      return;
+    std::vector<Arrival> settled(arrivals_.begin(), here);
+    settle_ties(scene_, plan_, hair_, settled, [&](SequenceHash name, Arrival& arrival) {
+      const auto pair = std::find_if(pairs.begin(), pairs.end(), [&](const Pair& one) {
+        return discovered_.sequences.hash(one.sequence) == name && counts(one);
+      });
+      return pair != pairs.end() && solve(point, static_cast<std::size_t>(pair - pairs.begin()), arrival);
+    });
+    std::stable_sort(settled.begin(), settled.end(), [&](const Arrival& a, const Arrival& b) {
+      return is_strong(pairs[a.number]) > is_strong(pairs[b.number]);
+    });
+    arrived_ = settled.size();
+    arrivals_ = std::move(settled);
+  }
+
+  void find_field(std::size_t a) {
+    Arrival& arrival = arrivals_[a];
+    arrival.field.resize(plan_.bands());
+    path_field(scene_, plan_, plan_.request.transmitters[transmitter_], arrival.interactions, arrival.geometry,
+               arrival.field);
+  }
+
   bool has_edge(const Pair& pair) const { return count_edges(discovered_.sequences[pair.sequence]) > 0; }
 
-  /// The power of the last arrival into the sums of the cell and of the point.
-  void add(const Pair& pair, double weight, double reference_delay) {
-    const Arrival& arrival = arrivals_[arrived_ - 1];
+  /// The power of an arrival into the sums of the cell and of the point.
+  void add(const Pair& pair, const Arrival& arrival, double weight, double reference_delay) {
     const auto layer = static_cast<std::size_t>(mechanism_of(arrival.interactions));
     const double delay = arrival.geometry.length / plan_.speed - reference_delay;
     for (std::size_t band = 0; band < plan_.bands(); ++band) {
@@ -235,6 +277,7 @@ class CellEvaluator {
 
   const Scene& scene_;
   const Plan& plan_;
+  const double hair_;
   const std::size_t transmitter_;
   const CoverageGrid& grid_;
   const Discovered& discovered_;
@@ -243,8 +286,9 @@ class CellEvaluator {
   CompositeSum composite_;
   std::vector<CellSums> sums_;
   std::vector<double> interference_, at_point_;
-  std::vector<UnfoldedSequence> unfolded_;
-  std::vector<Arrival> arrivals_;  ///< at the point in hand; the first `arrived_` count
+  std::vector<UnfoldedSequence> unfolded_;  ///< of the cell's pairs
+  std::vector<std::uint32_t> sequences_;    ///< of the same
+  std::vector<Arrival> arrivals_;           ///< at the point in hand; the first `arrived_` count
   std::size_t arrived_ = 0;
 };
 
@@ -307,8 +351,8 @@ CoverageMap empty_map(const Plan& plan, const CoverageGrid& grid) {
   return map;
 }
 
-void evaluate(const Scene& scene, const Plan& plan, std::size_t transmitter, const CoverageGrid& grid,
-              const Discovered& discovered, const std::vector<Pair>& pairs, CoverageMap& map,
+void evaluate(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
+              const CoverageGrid& grid, const Discovered& discovered, const std::vector<Pair>& pairs, CoverageMap& map,
               const std::function<void(double)>& progress, const std::atomic<bool>* stop) {
   const std::size_t cells = grid.layout.size();
   const unsigned threads = plan.request.threads ? plan.request.threads : hardware_threads();
@@ -316,7 +360,8 @@ void evaluate(const Scene& scene, const Plan& plan, std::size_t transmitter, con
   for (const Pair& pair : pairs) ++begins[pair.cell + 1];
   for (std::size_t c = 0; c < cells; ++c) begins[c + 1] += begins[c];
   std::vector<CellEvaluator> evaluators;
-  for (unsigned i = 0; i < threads; ++i) evaluators.emplace_back(scene, plan, transmitter, grid, discovered, map);
+  for (unsigned i = 0; i < threads; ++i)
+    evaluators.emplace_back(scene, tracer, plan, transmitter, grid, discovered, map);
   constexpr std::size_t tile = 64;
   const std::size_t tiles = (cells + tile - 1) / tile;
   std::atomic<std::size_t> done = 0;

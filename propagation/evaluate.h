@@ -34,8 +34,8 @@ CoverageMap empty_map(const Plan& plan, const CoverageGrid& grid);
 ///   crossed by 3 beams in the mean, so it is missed with a chance of e^{−3} = 5 %.
 /// Tiles of cells, each owned by one thread; sums in the order of the sequences: the same bits on any number of
 /// threads.
-void evaluate(const Scene& scene, const Plan& plan, std::size_t transmitter, const CoverageGrid& grid,
-              const Discovered& discovered, const std::vector<Pair>& pairs, CoverageMap& map,
+void evaluate(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
+              const CoverageGrid& grid, const Discovered& discovered, const std::vector<Pair>& pairs, CoverageMap& map,
               const std::function<void(double)>& progress, const std::atomic<bool>* stop);
 
 /// The diffraction layer of transmitter `transmitter` by the sampled estimator instead (the model fsd-published, which

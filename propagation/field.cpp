@@ -33,16 +33,33 @@ ComplexVec3 reflect(const ComplexVec3& field, const Vec3& k, const Vec3& normal,
   return combine(te, s, tm, cross(s, k_out));
 }
 
-/// T of line 6: which part of the edge's wave there is, with its ends.
-Complex end_weight(const Wedge& wedge, const EdgePassage& passage, double wavelength, double wavenumber) {
-  // An end shared with another wedge is a corner: the product of the two edges' end waves is split between them.
-  const auto share = [](std::uint32_t vertex) { return vertex == no_index ? 1.0 : 0.5; };
-  Complex weight = passage.inside ? 1.0 : 0.0;
-  weight += share(wedge.vertex_start) * edge_end_wave(passage.detour_start, wavelength, wavenumber, passage.along >= 0);
-  weight += share(wedge.vertex_end) *
-            edge_end_wave(passage.detour_end, wavelength, wavenumber, passage.along <= wedge.length);
-  return weight;
-}
+/// T of line 6: which part of each term there is, with the ends of the edge.
+class EndWeights {
+ public:
+  EndWeights(const Wedge& wedge, const EdgePassage& passage, double wavelength, double wavenumber)
+      : inside_(passage.inside ? 1.0 : 0.0) {
+    add(passage.detour_start, wavelength, wavenumber, passage.along >= 0);
+    add(passage.detour_end, wavelength, wavenumber, passage.along <= wedge.length);
+  }
+
+  Complex of(const EdgeTerm& term) const {
+    Complex weight = inside_;
+    for (const End& end : ends_) weight += edge_end_share(term.wave.argument, end.argument) * end.wave;
+    return weight;
+  }
+
+ private:
+  struct End {
+    double argument;  ///< of its wave, √(kδ)
+    Complex wave;
+  };
+  void add(double detour, double wavelength, double wavenumber, bool inside) {
+    ends_[count_++] = {std::sqrt(wavenumber * detour), edge_end_wave(detour, wavelength, wavenumber, inside)};
+  }
+  double inside_;
+  std::array<End, 2> ends_{};
+  std::size_t count_ = 0;
+};
 
 /// What a face does to a wave in the cone frames of an edge: rows β̂, φ̂ of the image wave, columns β̂, φ̂ of the incident
 /// one.
@@ -179,7 +196,7 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
     std::array<ComplexVec3, 4> wave{ComplexVec3{launched.x, launched.y, launched.z}};
     if (!radio) wave[0].x = 1;
     std::size_t waves = 1, edge_number = 0;
-    Complex weight = 1;
+    double weight = 1;
     EdgeTerms before;
     std::uint32_t came = no_index;
     for (std::size_t i = 0; i < interactions.size(); ++i) {
@@ -197,7 +214,7 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
       const EdgePassage& passage = geometry.edges[edge_number];
       const Wedge& wedge = scene.wedges.wedges[passage.wedge];
       const bool first = edge_number == 0, last = edge_number + 1 == edges;
-      weight *= end_weight(wedge, passage, wavelength, wavenumber);
+      const EndWeights ends(wedge, passage, wavelength, wavenumber);
       std::uint32_t leaves = no_index;
       if (!last && is_edge(interactions[i + 1])) leaves = grazed_face(scene, passage, geometry.edges[edge_number + 1]);
       // The wave along a face that both edges bound is there as itself and as its image.
@@ -234,8 +251,9 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
           sum[1] += factor * arriving[a][1];
         }
         const auto seen = faces ? at_faces->seen_at(term.boundary, sum) : sum;
-        leaving[last ? 0 : t][0] += seen[0];
-        leaving[last ? 0 : t][1] += seen[1];
+        const Complex there = ends.of(term);
+        leaving[last ? 0 : t][0] += there * seen[0];
+        leaving[last ? 0 : t][1] += there * seen[1];
       }
       waves = last ? 1 : terms.count;
       for (std::size_t a = 0; a < waves; ++a) {

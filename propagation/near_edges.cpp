@@ -8,6 +8,8 @@
 #include "core/constants.h"
 #include "propagation/connect.h"
 #include "propagation/fermat.h"
+#include "propagation/field.h"
+#include "propagation/patch_rims.h"
 
 namespace grimaldi {
 namespace {
@@ -61,6 +63,46 @@ void add_near_edges(const Scene& scene, const Tracer& tracer, const Plan& plan, 
       }
     }
   }
+}
+
+std::vector<std::uint32_t> add_second_edges(const Scene& scene, const Tracer& tracer, const Plan& plan,
+                                            std::size_t transmitter, const Vec3& point, double least,
+                                            SequenceTable& sequences, std::uint64_t& shadow_rays,
+                                            const std::atomic<bool>* stop) {
+  const double wavelength = 2 * pi / plan.wavenumber.front();
+  const Vec3& source = plan.request.transmitters[transmitter].position;
+  const PatchRims rims(scene);
+  const auto hidden = [&](const Wedge& wedge) {
+    const Vec3 way = point - wedge.start;
+    return dot(way, wedge.normal0) < 0 && dot(way, wedge.normaln()) < 0;
+  };
+  std::vector<std::uint32_t> added;
+  const auto first_new = static_cast<std::uint32_t>(sequences.size());
+  for (std::uint32_t s = 0; s < first_new && !(stop && *stop); ++s) {
+    const auto found = sequences[s];
+    if (found.empty() || !is_edge(found.back()) || static_cast<int>(found.size()) >= plan.request.depth ||
+        static_cast<int>(count_edges(found)) >= most_edges(plan.request))
+      continue;
+    const std::uint32_t last = index_of(found.back());
+    const Wedge& wedge = scene.wedges.wedges[last];
+    if (!hidden(wedge)) continue;
+    std::vector<Interaction> child(found.begin(), found.end());  // the table grows below
+    child.push_back(0);
+    for (const std::uint32_t patch : {wedge.patch0, wedge.patchn})
+      for (const std::uint32_t second : rims.of(patch)) {
+        if (second == last || hidden(scene.wedges.wedges[second])) continue;
+        child.back() = edge_interaction(second);
+        const SequenceHash hash = hash_of(child);
+        if (sequences.find(hash) != SequenceTable::no_sequence) continue;
+        PathGeometry geometry;
+        UnfoldedSequence unfolded(scene, source, child);
+        if (!unfolded.solve(point, wavelength, geometry) || power_bound(scene, plan, child, geometry) < least ||
+            blocked_leg(scene, tracer, child, geometry, shadow_rays))
+          continue;
+        added.push_back(sequences.enter(hash, child));
+      }
+  }
+  return added;
 }
 
 }  // namespace grimaldi

@@ -2,7 +2,9 @@
 // Edges beside free legs: the lit side of shadow boundaries.
 
 #include <atomic>
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "propagation/plan.h"
 #include "propagation/sequence.h"
@@ -19,5 +21,14 @@ namespace grimaldi {
 void add_near_edges(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
                     const Vec3& point, std::span<const std::uint32_t> arriving, SequenceTable& sequences,
                     std::uint64_t& shadow_rays, const std::atomic<bool>* stop);
+
+/// Adds to `sequences` those that pass a second edge of the face along which the wave of their last edge must go to
+/// reach `point`, which its own solid hides from it: no ray says so, the wave would start inside the solid. Returns
+/// their numbers. Method: for every sequence that ends so, with room for one more edge, the rims of both faces of its
+/// last edge that the point sees; kept are the paths that arrive and whose `power_bound` is not below `least`.
+std::vector<std::uint32_t> add_second_edges(const Scene& scene, const Tracer& tracer, const Plan& plan,
+                                            std::size_t transmitter, const Vec3& point, double least,
+                                            SequenceTable& sequences, std::uint64_t& shadow_rays,
+                                            const std::atomic<bool>* stop);
 
 }  // namespace grimaldi

@@ -1,9 +1,14 @@
 #include "propagation/path_search.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
+#include "core/constants.h"
 #include "propagation/detour.h"
+#include "propagation/effort.h"
+#include "propagation/fermat.h"
+#include "propagation/field.h"
 #include "propagation/look_back.h"
 #include "propagation/near_edges.h"
 
@@ -31,8 +36,8 @@ void grow_and_lead_around(const Scene& scene, const Tracer& tracer, const Plan& 
 }
 
 SequenceTable search_for_point(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
-                               const Vec3& point, double power, const SequenceTable& known, std::uint64_t& shadow_rays,
-                               const std::atomic<bool>* stop) {
+                               const Vec3& point, std::span<const Arrival> arrivals, const SequenceTable& known,
+                               std::uint64_t& shadow_rays, const std::atomic<bool>* stop) {
   const PlanDescription& request = plan.request;
   CoverageGrid spot;
   spot.layout.nx = spot.layout.ny = 1;
@@ -52,13 +57,32 @@ SequenceTable search_for_point(const Scene& scene, const Tracer& tracer, const P
       here.seeds.push_back({here.sequences.enter(known.hash(i), known[i]), 0, ~0u, false, 0});
   std::sort(here.seeds.begin(), here.seeds.end(), [](const Seed& a, const Seed& b) { return a.sequence < b.sequence; });
   Grown grown;
+  double power = 0;
+  for (const Arrival& arrival : arrivals) power += received_power(arrival.field[0], Polarisation::both);
   grown.known = {power};
   grow_and_lead_around(scene, tracer, plan, transmitter, spot, 0, most_edges(request), here, grown, {}, stop);
-  std::sort(grown.pairs.begin(), grown.pairs.end(), [](const Pair& a, const Pair& b) {
-    return a.power != b.power ? a.power > b.power : a.sequence < b.sequence;
-  });
+  std::vector<std::pair<double, std::uint32_t>> strongest;  // bound, sequence
+  for (const Arrival& arrival : arrivals)
+    strongest.emplace_back(-power_bound(scene, plan, arrival.interactions, arrival.geometry),
+                           here.sequences.enter(arrival.hash, arrival.interactions));
+  std::vector<std::uint32_t> around =
+      add_second_edges(scene, tracer, plan, transmitter, point, effort_of(request).negligible_share * power,
+                       here.sequences, shadow_rays, stop);
+  for (const Pair& pair : grown.pairs) around.push_back(pair.sequence);
+  for (const std::uint32_t sequence : around) {
+    const auto interactions = here.sequences[sequence];
+    PathGeometry geometry;
+    UnfoldedSequence unfolded(scene, request.transmitters[transmitter].position, interactions);
+    if (unfolded.solve(point, 2 * pi / plan.wavenumber.front(), geometry))
+      strongest.emplace_back(-power_bound(scene, plan, interactions, geometry), sequence);
+  }
+  std::sort(strongest.begin(), strongest.end());
   std::vector<std::uint32_t> arriving;
-  for (const Pair& pair : grown.pairs) arriving.push_back(pair.sequence);
+  std::vector<bool> listed(here.sequences.size(), false);
+  for (const auto& [bound, sequence] : strongest) {
+    if (!listed[sequence]) arriving.push_back(sequence);
+    listed[sequence] = true;
+  }
   add_near_edges(scene, tracer, plan, transmitter, point, arriving, here.sequences, shadow_rays, stop);
   shadow_rays += grown.shadow_rays + here.shadow_rays;
   SequenceTable found;

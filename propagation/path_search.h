@@ -4,7 +4,9 @@
 #include <atomic>
 #include <cstddef>
 #include <functional>
+#include <span>
 
+#include "propagation/composite.h"
 #include "propagation/coverage_grid.h"
 #include "propagation/discover.h"
 #include "propagation/grow.h"
@@ -21,11 +23,12 @@ void grow_and_lead_around(const Scene& scene, const Tracer& tracer, const Plan& 
                           const CoverageGrid& grid, std::size_t first_seed, int most_edges, Discovered& discovered,
                           Grown& grown, const std::function<void(double)>& progress, const std::atomic<bool>* stop);
 
-/// The sequences, beyond the known ones, that lead around what blocks those on their way to one point, where paths of
-/// power `power` (first band) arrive by the known ones, and those over edges beside free legs (`add_near_edges`).
+/// The sequences, beyond the known ones, that lead around what blocks those on their way to one point, where the
+/// `arrivals` are the paths by the known ones, and those over edges beside free legs (`add_near_edges`) of all these,
+/// largest `power_bound` first: a wave that nearly vanishes (along a soft face) may have a neighbour that does not.
 /// `shadow_rays` grows by the rays asked.
 SequenceTable search_for_point(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
-                               const Vec3& point, double power, const SequenceTable& known, std::uint64_t& shadow_rays,
-                               const std::atomic<bool>* stop);
+                               const Vec3& point, std::span<const Arrival> arrivals, const SequenceTable& known,
+                               std::uint64_t& shadow_rays, const std::atomic<bool>* stop);
 
 }  // namespace grimaldi

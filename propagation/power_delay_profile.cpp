@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/blocks.h"
 #include "core/constants.h"
@@ -13,6 +15,7 @@
 #include "propagation/fermat.h"
 #include "propagation/field.h"
 #include "propagation/path_search.h"
+#include "propagation/ties.h"
 
 namespace grimaldi {
 namespace {
@@ -72,6 +75,24 @@ void add_arrivals(const Scene& scene, const Tracer& tracer, const Plan& plan, co
     std::move(block.arrivals.begin(), block.arrivals.end(), std::back_inserter(all));
     shadow_rays += block.shadow_rays;
   }
+}
+
+/// The path of a name to one point, from several tables.
+bool find_path(const Scene& scene, const Plan& plan, const Transmitter& transmitter, const Vec3& position,
+               std::span<const SequenceTable* const> tables, SequenceHash name, Arrival& arrival) {
+  for (const SequenceTable* table : tables) {
+    const std::uint32_t number = table->find(name);
+    if (number == SequenceTable::no_sequence) continue;
+    arrival.hash = name;
+    arrival.interactions = (*table)[number];
+    if (arrival.interactions.empty() && !plan.request.direct) return false;
+    UnfoldedSequence unfolded(scene, transmitter.position, arrival.interactions);
+    if (!unfolded.solve(position, 2 * pi / plan.wavenumber.front(), arrival.geometry)) return false;
+    arrival.field.resize(plan.bands());
+    path_field(scene, plan, transmitter, arrival.interactions, arrival.geometry, arrival.field);
+    return true;
+  }
+  return false;
 }
 
 void delay_statistics(const std::vector<Arrival>& arrivals, const Plan& plan, Polarisation polarisation,
@@ -171,13 +192,15 @@ std::uint64_t connect_receivers(const Scene& scene, const Tracer& tracer, const 
     add_arrivals(scene, tracer, plan, source, receiver.position, sequences, arrivals, shadow_rays, stop);
     SequenceTable around;
     if (most_edges(plan.request) > 0) {
-      double power = 0;
-      for (const Arrival& arrival : arrivals) power += received_power(arrival.field[0], Polarisation::both);
       around =
-          search_for_point(scene, tracer, plan, transmitter, receiver.position, power, sequences, shadow_rays, stop);
+          search_for_point(scene, tracer, plan, transmitter, receiver.position, arrivals, sequences, shadow_rays, stop);
       add_arrivals(scene, tracer, plan, source, receiver.position, around, arrivals, shadow_rays, stop);
     }
     if (stop && *stop) break;
+    settle_ties(scene, plan, tie_hair(tracer.surface_gap()), arrivals, [&](SequenceHash name, Arrival& arrival) {
+      return find_path(scene, plan, source, receiver.position, std::array{&sequences, &std::as_const(around)}, name,
+                       arrival);
+    });
     add_transmitter(scene, plan, transmitter, receiver, arrivals, profiles[r]);
   }
   return shadow_rays;

@@ -93,11 +93,9 @@ class EdgeSampler {
     const Vec3 direction = normalized(cos_beta * wedge.direction +
                                       start.sin_beta * (std::cos(phi) * wedge.along0 + std::sin(phi) * wedge.normal0));
     const double power = arrived * start.sin_beta * start.sin_beta / (start.density * law.density(phi));
-    const Vec3& source = lit_.lamp(lit).position;
     const auto law_at = [&](double s_out) {
       const double effective = s_out * start.s_in / (s_out + start.s_in);
-      return effective * wave_power(lit, start, phi, effective) *
-             std::norm(end_waves(source, wedge, start, start.point + s_out * direction, s_out));
+      return effective * wave_power(lit, start, phi, effective, start.point + s_out * direction, s_out);
     };
     follow({outside_of_edge(tracer_, wedge, start.point), direction, wedge.patch0, wedge.patchn, power, start.s_in,
             static_cast<int>(lit_.lamp(lit).patches.size())},
@@ -235,10 +233,12 @@ class EdgeSampler {
     crossings.push_back({cell, gain});
   }
 
-  /// |Σ r U|², the mean of both polarisations.
-  double wave_power(const LitEdge& lit, const EdgePoint& start, double phi, double effective) const {
+  /// |Σ r T U|², the mean of both polarisations.
+  double wave_power(const LitEdge& lit, const EdgePoint& start, double phi, double effective, const Vec3& receiver,
+                    double s_out) const {
     const Wedge& wedge = wedge_of(lit);
-    const auto waves = sector_waves(lit.sector, effective, wavelength_, start.sin_beta, phi);
+    auto waves = sector_waves(lit.sector, effective, wavelength_, start.sin_beta, phi);
+    if (!add_ends(lit, start, phi, effective, receiver, s_out, waves)) return 0;
     if (!lit.sector.faces) return std::norm(waves[0]);
     std::complex<double> te = waves[0], tm = waves[0];
     const auto add = [&](std::complex<double> wave, std::uint32_t material, double azimuth_in, double azimuth_out) {
@@ -257,19 +257,27 @@ class EdgeSampler {
     return 0.5 * (std::norm(te) + std::norm(tm));
   }
 
-  /// T: whether the point lies on the edge, and the waves of its ends towards the (unfolded) receiver.
-  std::complex<double> end_waves(const Vec3& source, const Wedge& wedge, const EdgePoint& start, const Vec3& receiver,
-                                 double s_out) const {
-    std::complex<double> weight = start.along >= 0 && start.along <= wedge.length ? 1 : 0;
+  /// Each wave times T: whether the point lies on the edge, and the waves of its ends towards the (unfolded) receiver.
+  /// False if the point lies too far beyond an end.
+  bool add_ends(const LitEdge& lit, const EdgePoint& start, double phi, double effective, const Vec3& receiver,
+                double s_out, std::array<std::complex<double>, 3>& waves) const {
+    const Wedge& wedge = wedge_of(lit);
+    const Vec3& source = lit_.lamp(lit).position;
+    const auto turns = turns_beyond_boundaries(lit.sector, phi);
+    std::array<std::complex<double>, 3> weights;
+    weights.fill(start.along >= 0 && start.along <= wedge.length ? 1 : 0);
     for (const bool last : {false, true}) {
       const Vec3 end = last ? wedge.end() : wedge.start;
       const bool inside = last ? start.along <= wedge.length : start.along >= 0;
       const double detour = std::max(0.0, distance(source, end) + distance(end, receiver) - start.s_in - s_out);
-      if (!inside && 2 * std::sqrt(detour / wavelength_) >= end_parameter_limit) return 0;
-      const double share = (last ? wedge.vertex_end : wedge.vertex_start) == no_index ? 1 : 0.5;
-      weight += share * edge_end_wave(detour, wavelength_, plan_.wavenumber[band_], inside);
+      const double v_end = 2 * std::sqrt(detour / wavelength_);
+      if (!inside && v_end >= end_parameter_limit) return false;
+      const std::complex<double> wave = edge_end_wave(detour, wavelength_, plan_.wavenumber[band_], inside);
+      for (std::size_t i = 0; i < waves.size(); ++i)
+        weights[i] += edge_end_share(fresnel_parameter(effective, wavelength_, start.sin_beta, turns[i]), v_end) * wave;
     }
-    return weight;
+    for (std::size_t i = 0; i < waves.size(); ++i) waves[i] *= weights[i];
+    return true;
   }
 
   const Scene& scene_;

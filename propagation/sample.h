@@ -33,15 +33,15 @@ struct SampledLayer {
 /// uniform, and asked whether the source sees it; an azimuth is drawn by AzimuthLaw; the beam follows the Keller cone
 /// and reflects up to the depth. Each crossing of the grid's plane in a cell of outdoor area A adds (1/N) I_Q L sin²β
 /// ½Σ_pol|Σ r U|² |T|² R c/(p A |cos θ|): I_Q = antenna gain/(4π s'²), R = power reflectances and air, p the density of
-/// the draw, c = λ²/4π (sound: 1), T = the ends' waves; points up to v_V = 3 beyond an end are drawn too. With the
-/// model fsd_published: a ray that hits a face of the edge at a distance from its silhouette drawn from the footprint
-/// (sigma = 25 λ), and a direction by PublishedScattering; it goes on from the hit behind a thin screen, from the edge
-/// behind a solid. One edge at a time, silhouettes only. Source images of up to classes.before reflections are tabled
-/// against all wedges: patches^p × wedges entries. Polarisation: faces and face terms by the mean power of r⊥ and r∥;
-/// exact for sound and without reflection. Inputs: samples N ≥ 2, band of the plan. standard_error² = (Σx² −
-/// (Σx)²/N)/(1 − 1/N), x a sample's share; gain is unbiased but for the polarisation. Independent of the number of
-/// threads: draws from (seed, sample), sums in the order of the samples' blocks. `stop`, if set, ends early with an
-/// empty layer.
+/// the draw, c = λ²/4π (sound: 1), T = the ends' waves, for each term; points up to v_V = 3 beyond an end are drawn
+/// too. With the model fsd_published: a ray that hits a face of the edge at a distance from its silhouette drawn from
+/// the footprint (sigma = 25 λ), and a direction by PublishedScattering; it goes on from the hit behind a thin screen,
+/// from the edge behind a solid. One edge at a time, silhouettes only. Source images of up to classes.before
+/// reflections are tabled against all wedges: patches^p × wedges entries. Polarisation: faces and face terms by the
+/// mean power of r⊥ and r∥; exact for sound and without reflection. Inputs: samples N ≥ 2, band of the plan.
+/// standard_error² = (Σx² − (Σx)²/N)/(1 − 1/N), x a sample's share; gain is unbiased but for the polarisation.
+/// Independent of the number of threads: draws from (seed, sample), sums in the order of the samples' blocks. `stop`,
+/// if set, ends early with an empty layer.
 SampledLayer sample_diffraction(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
                                 const CoverageGrid& grid, std::uint64_t samples, std::size_t band,
                                 const SampledClasses& classes = {}, const std::atomic<bool>* stop = nullptr);

@@ -11,6 +11,17 @@ SequenceHash hash_of(std::span<const Interaction> interactions) {
   return hash;
 }
 
+SequenceHash hash_without(std::span<const Interaction> interactions, std::size_t at, Interaction other) {
+  SequenceHash hash = empty_sequence;
+  for (std::size_t i = 0; i < interactions.size(); ++i) {
+    if (i != at)
+      hash = extended(hash, interactions[i]);
+    else if (other != no_interaction)
+      hash = extended(hash, other);
+  }
+  return hash;
+}
+
 std::size_t count_edges(std::span<const Interaction> interactions) {
   return static_cast<std::size_t>(std::count_if(interactions.begin(), interactions.end(), is_edge));
 }

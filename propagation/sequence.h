@@ -34,6 +34,10 @@ constexpr SequenceHash extended(SequenceHash hash, Interaction interaction) {
 
 SequenceHash hash_of(std::span<const Interaction> interactions);
 
+/// Name of `interactions` with number `at` left out, or replaced by `other` if that is not no_interaction.
+inline constexpr Interaction no_interaction = 0xffffffffu;
+SequenceHash hash_without(std::span<const Interaction> interactions, std::size_t at, Interaction other);
+
 /// Many distinct sequences, numbered in the order in which they came.
 class SequenceTable {
  public:

@@ -119,7 +119,8 @@ Result simulate(const Scene& scene, const Tracer& tracer, const Plan& asked, con
       add_flux(figures.flux, discovered.flux, 1 / double(transmitters));
       if (plan.request.coverage && !stopped()) {
         const StageClock stage(figures.evaluate_seconds);
-        evaluate(scene, plan, t, grid, discovered, grown.pairs, *result.coverage, report("evaluate", 0.8, 1), stop);
+        evaluate(scene, tracer, plan, t, grid, discovered, grown.pairs, *result.coverage, report("evaluate", 0.8, 1),
+                 stop);
         if (sampled && !stopped()) {
           add_sampled_diffraction(scene, tracer, asked, t, grid, *result.coverage, stop);
           figures.rays += static_cast<std::uint64_t>(plan.request.rays);

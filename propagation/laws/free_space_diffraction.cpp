@@ -45,6 +45,11 @@ std::complex<double> edge_end_wave(double detour, double wavelength, double wave
   return edge_wave(v, !inside) * std::polar(1.0, -wavenumber * detour);
 }
 
+double edge_end_share(double v, double v_end) {
+  const double sum = v * v + v_end * v_end;
+  return sum > 0 ? v * v / sum : 0.5;
+}
+
 double edge_power_density(double effective_distance, double wavelength, double sin_beta, double epsilon) {
   return effective_distance * sin_beta * sin_beta *
          std::norm(edge_wave(fresnel_parameter(effective_distance, wavelength, sin_beta, epsilon), true));

@@ -33,6 +33,15 @@ void edge_waves(std::span<const double> effective_distance, double wavelength, s
 /// wavelength λ (m), wavenumber k (rad/m).
 std::complex<double> edge_end_wave(double detour, double wavelength, double wavenumber, bool inside);
 
+/// Share of an end's wave that a term of the edge's wave takes: its weight is T = H + Σ share UV, H = 1 for a
+/// diffraction point on the edge, else 0. Formula: v²/(v² + v_V²), ½ for 0 and 0; v of the term's boundary, v_V of the
+/// end (or any common multiple of both). Source: own. Behind the corner of a right-angled screen the wave of edge and
+/// end is one product of two edge waves, U(v) U(v_V), which both edges of the corner have; the edge beyond exchanges v
+/// and v_V, so that the shares add up to 1. All of it belongs to the edge whose diffraction point passes the corner
+/// (v_V = 0), nothing to one whose term changes its sign (v = 0): neither makes a step, wherever the two happen.
+/// Inputs: v, v_V ≥ 0.   Returns: 0 … 1.
+double edge_end_share(double v, double v_end);
+
 /// Power per unit length of edge and unit azimuth over the irradiance at the edge: dP/(ds dε) = I L sin²β |U(v)|², W/(m
 /// rad) per W/m².
 double edge_power_density(double effective_distance, double wavelength, double sin_beta, double epsilon);

@@ -131,6 +131,17 @@ TEST(FreeSpaceDiffraction, ParameterIsTheDetour) {
               0.25 * fresnel_parameter(effective, wavelength, 1, 0.2), 1e-15);
 }
 
+// The product of an edge's and an end's wave is shared by the two edges of a corner, which exchange both arguments.
+// Nothing goes to a term on its boundary, all to an edge whose diffraction point is the corner. Rounding: 1e-15.
+TEST(EdgeEnds, SharesOfACorner) {
+  for (const double v : {1e-9, 0.02, 1.0, 7.5})
+    for (const double v_end : {1e-7, 0.3, 1.0, 40.0})
+      EXPECT_NEAR(edge_end_share(v, v_end) + edge_end_share(v_end, v), 1, 1e-15) << v << " " << v_end;
+  EXPECT_EQ(edge_end_share(0, 0.5), 0);
+  EXPECT_EQ(edge_end_share(0.5, 0), 1);
+  EXPECT_EQ(edge_end_share(0, 0), 0.5);
+}
+
 // Across an end of an edge nothing jumps: 1 + UV(inside) = UV(outside) = ½ at the end, and two ends of one detour
 // cancel.
 TEST(FreeSpaceDiffraction, EndsOfAnEdge) {

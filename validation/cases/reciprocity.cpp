@@ -28,14 +28,10 @@ struct Place {
 
 /// The bounds of this suite: the goal is 0.05 dB.
 constexpr const char* goal = "the goal: the laws are reciprocal, and both ways find the paths that count";
-constexpr const char* skew =
-    "a defect: two edges near each other, one level and one upright, bring 0.05 dB (sound) that depends on the "
-    "direction; "
-    "the goal is 0.05 dB";
 constexpr const char* fact =
     "a defect: where nothing is blocked, paths over two edges are found by chance, some in one direction alone with "
     "any "
-    "number of rays; and two skew edges near each other, one level and one upright, differ by 0.7 dB in themselves";
+    "number of rays: 62 paths there and 65 back; the goal is 0.05 dB";
 
 const std::vector<Place>& places() {
   const Vec3 canyon{-31, 3, 9};
@@ -56,8 +52,8 @@ const std::vector<Place>& places() {
        {{71, -3, 1.5}, {0, 22, 1.5}},
        2,
        1e5,
-       0.15,
-       skew},
+       0.05,
+       goal},
       {"city/depth1",
        "between some houses of the demo city, paths of one interaction",
        "demo-city",
@@ -74,7 +70,7 @@ const std::vector<Place>& places() {
        {{20, 20, 1.5}, {0, 80, 1.5}, {-60, 60, 1.5}},
        2,
        1e5,
-       1.5,
+       0.6,
        fact,
        true},
   };

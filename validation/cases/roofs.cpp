@@ -92,15 +92,21 @@ const Truth& truth_of(const Roofs& roofs) {
 /// Level at which nothing that arrives counts, dB.
 constexpr double nothing = -100;
 
-/// Bounds of this suite, of the errors of nine points in ten, dB. The goal is 1 dB. Today paths over both edges of one
-/// roof are not found, so nothing arrives where these alone lead: facts, to become bounds.
+/// Bounds of this suite, of the errors of nine points in ten, dB.
 struct Bound {
-  double at_least, most;
+  double most;
   const char* reason;
 };
-constexpr Bound bound{1, 100,
-                      "a defect: paths over two edges of one roof are not found (the first edge's wave to the point "
-                      "would start inside the solid, which does not count as blocked); below 1 dB a bound"};
+Bound bound_of(const Roofs& roofs, bool soft, DiffractionModel model) {
+  const bool one = roofs.blocks.size() == 1;
+  if (one && !(soft && model == DiffractionModel::fsd)) return {0.5, "the goal for radio"};
+  if (one) return {3, "a fact: near grazing three black edges lack one term of the soft wave"};
+  return {
+      5,
+      "a defect: behind two roofs from below, the path over all four edges is not found everywhere (no single one of "
+      "its legs is blocked by what it goes over), and reflections between the roofs lack partners; a median of 0.1 to "
+      "1.1 dB"};
+}
 
 enum class Face { soft, hard, rigid };
 constexpr const char* face_names[] = {"soft", "hard", "sound"};
@@ -157,13 +163,15 @@ Cases roof_cases() {
   Cases cases;
   for (const Roofs& roofs : all_roofs())
     for (const Face face : {Face::soft, Face::hard, Face::rigid})
-      for (const DiffractionModel model : {DiffractionModel::fsd, DiffractionModel::utd})
+      for (const DiffractionModel model : {DiffractionModel::fsd, DiffractionModel::utd}) {
+        const Bound bound = bound_of(roofs, face == Face::soft, model);
         cases.push_back(
             {fmt::format("roofs/{}/{}/{}", roofs.name, face_names[int(face)],
                          model == DiffractionModel::utd ? "utd" : "fsd"),
              fmt::format("engine over {}: |error of level| of nine points in ten above -40 dB", roofs.words),
-             "boundary elements", "dB", bound.most, bound.reason, bound.at_least,
+             "boundary elements", "dB", bound.most, bound.reason, 0,
              [&roofs, face, model] { return levels_behind(roofs, face, model); }});
+      }
   return cases;
 }
 

@@ -59,13 +59,10 @@ SceneDescription flat_roof() { return deep_blocks({{0, 10, 0}}, 500, 500); }
 SceneDescription two_roofs() { return deep_blocks({{0, 10, 0}, {30, 10, 1}}, 500, 500); }
 
 constexpr const char* goal = "the goal of a level without steps";
-constexpr const char* end_of_edge =
-    "a defect: the wave of an edge beyond its end changes sign on the plane of its own shadow, the neighbour's wave is "
-    "halved where its point of diffraction passes the corner; for bent rays these are two places, millimetres to "
-    "decimetres apart, and between them a quarter of the wave is missing";
-constexpr const char* missing_pairs =
-    "a defect: paths over two edges of one face are not found (the first edge's wave to the point would start inside "
-    "the solid, which does not count as blocked), so the level falls where the first edge is hidden by the second";
+constexpr const char* few_ways =
+    "a defect: with few rays (2e4, as here) one way around a house is kept of several that are as good, on either side "
+    "of "
+    "it, and which one changes from place to place; the goal is 0.5 dB";
 
 /// The bounds of this suite: the goal is 0.5 dB, the others are what was measured, to be tightened.
 const Walk walks[] = {
@@ -133,8 +130,8 @@ const Walk walks[] = {
      1,
      {3, 2.4, 3.1},
      {3, 4.2, 3.1},
-     4,
-     end_of_edge},
+     0.5,
+     goal},
     {"over-a-corner",
      "behind a plate, over the shadow of one of its corners",
      plate,
@@ -142,28 +139,20 @@ const Walk walks[] = {
      1,
      {3, 4.3, 1.7},
      {3, 2.8, 3.4},
-     4,
-     end_of_edge},
+     0.5,
+     goal},
     {"around-a-house",
      "around a house on ground at street level, a mast over the roofs before it",
      house,
      {-40, 3, 14},
-     3,
+     4,
      {150, 0, 1.5},
      {-30, 0, 1.5},
-     45,
-     missing_pairs,
-     13},
-    {"over-a-roof", "down behind a flat roof", flat_roof, {-40, 0, 2}, 2, {25, 0, 6}, {25, 0, -15}, 10, missing_pairs},
-    {"over-two-roofs",
-     "down behind two flat roofs",
-     two_roofs,
-     {-40, 0, 2},
      3,
-     {55, 0, 8},
-     {55, 0, -15},
-     20,
-     missing_pairs},
+     few_ways,
+     13},
+    {"over-a-roof", "down behind a flat roof", flat_roof, {-40, 0, 2}, 2, {25, 0, 6}, {25, 0, -15}, 0.5, goal},
+    {"over-two-roofs", "down behind two flat roofs", two_roofs, {-40, 0, 2}, 4, {55, 0, 8}, {55, 0, -15}, 0.5, goal},
 };
 
 /// Levels of the engine at shares of the walk, dB.
