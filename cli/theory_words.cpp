@@ -110,6 +110,9 @@ std::string suite_words(const std::string& suite) {
       {"screens",
        "A strip, a slit and a rectangular plate as meshes through the whole engine. The fields of all paths are added "
        "and compared with Kirchhoff's integral where the screen is black, with boundary elements where it conducts."},
+      {"auto",
+       "The model that chooses for itself: small plates and boxes as meshes through the whole engine against "
+       "Kirchhoff's integral, and ways along which the choice changes."},
       {"roofs",
        "One and two flat roofs as meshes through the whole engine, against boundary elements: receivers from the light "
        "down into the shadow. Where nothing arrives the level counts as -100 dB."},

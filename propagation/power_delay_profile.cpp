@@ -11,7 +11,7 @@
 #include "propagation/composite.h"
 #include "propagation/connect.h"
 #include "propagation/fermat.h"
-#include "propagation/field.h"
+#include "propagation/object_wave.h"
 #include "propagation/path_search.h"
 
 namespace grimaldi {
@@ -63,13 +63,18 @@ void add_arrivals(const Scene& scene, const Tracer& tracer, const Plan& plan, co
           arrival.hash = sequences.hash(s);
           arrival.interactions = interactions;
           arrival.field.resize(plan.bands());
-          path_field(scene, plan, transmitter, interactions, arrival.geometry, arrival.field);
+          arrival.object = object_name(scene, plan, transmitter.position, interactions, arrival.geometry);
+          arrival_field(scene, plan, transmitter, interactions, arrival.geometry, true, arrival.field);
           found[block].arrivals.push_back(arrival);
         }
       },
       stop);
   for (Found& block : found) {
-    std::move(block.arrivals.begin(), block.arrivals.end(), std::back_inserter(all));
+    for (Arrival& arrival : block.arrivals) {
+      if (!carries_object(all, arrival.object))
+        arrival_field(scene, plan, transmitter, arrival.interactions, arrival.geometry, false, arrival.field);
+      all.push_back(std::move(arrival));
+    }
     shadow_rays += block.shadow_rays;
   }
 }

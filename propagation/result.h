@@ -9,6 +9,7 @@
 
 #include "core/contract.h"
 #include "core/vector.h"
+#include "propagation/edge_model.h"
 #include "propagation/plan.h"
 
 namespace grimaldi {
@@ -25,6 +26,7 @@ struct CoverageMap {
   std::vector<double> standard_error;    ///< [T][F][cells]; same unit as path_gain
   std::vector<double> bias;              ///< [T][F][cells]; estimate of the gain not yet found, ≥ 0
   std::vector<double> mechanism_gain;    ///< [T][M][F][cells]
+  std::vector<double> model_gain;        ///< [T][edge_model_count][cells]; diffraction at the first band by its model
   std::vector<double> mean_delay;        ///< [T][F][cells], s; NaN where nothing arrived
   std::vector<double> rms_delay_spread;  ///< [T][F][cells], s; NaN where nothing arrived
   std::vector<double> inside_fraction;   ///< [cells]

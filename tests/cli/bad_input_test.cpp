@@ -358,7 +358,6 @@ TEST_F(BadInput, WhatThisVersionLacks) {
     refused({verb}, {verb, lacks, "known: coverage"});
     refused({verb, "city.toml", "-o", "x.out"}, {verb, lacks});
   }
-  refused(city({"--diffraction", "auto"}), {"--diffraction auto", lacks, "known: fsd"});
   refused(city({"--mechanisms", "direct,transmission"}), {"--mechanisms", lacks});
   refused(city({"--mechanisms", "scattering"}), {"--mechanisms scattering", lacks});
   for (const char* set :

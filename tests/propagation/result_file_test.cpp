@@ -97,6 +97,7 @@ Case small_case(WaveKind kind = WaveKind::radio) {
   map.standard_error = ramp(T * F * cells, 200);
   map.bias = ramp(T * F * cells, 300);
   map.mechanism_gain = ramp(T * mechanism_count * F * cells, 1000);
+  map.model_gain = ramp(T * edge_model_count * cells, 700);
   map.mean_delay = ramp(T * F * cells, 400);
   map.rms_delay_spread = ramp(T * F * cells, 500);
   map.inside_fraction = {1, 0, 0.25, 0, 0, 0, 0, 0};
@@ -457,6 +458,9 @@ TEST_F(ResultFile, WrongShapeIsOurFault) {
   c = small_case();
   c.result.coverage->mechanism_gain.pop_back();
   EXPECT_THROW(map_figures(c.plan, *c.result.coverage), std::logic_error);
+  c = small_case();
+  c.result.coverage->model_gain.pop_back();
+  EXPECT_THROW(map_figures(c.plan, *c.result.coverage), std::logic_error);
 }
 
 TEST_F(ResultFile, TextIsWrittenWhole) {
@@ -484,6 +488,7 @@ Case figures_case() {
   std::copy(std::begin(direct), std::end(direct), layer(Mechanism::direct));
   std::copy(std::begin(interference), std::end(interference), layer(Mechanism::interference));
   std::copy(std::begin(diffraction), std::end(diffraction), layer(Mechanism::diffraction));
+  map.model_gain = {nan_value, 0, 0, 0, 1.5, nan_value, 0, 0, 0, 0.25, nan_value, 0, 0, 0, 0.25, nan_value, 0, 0, 0, 0};
   c.result.coverage = map;
   return c;
 }
@@ -498,6 +503,10 @@ TEST(MapFigures, CountCellsAndAddLayers) {
   EXPECT_NEAR(figures.median_standard_error_dB, 10 * std::log10(2.0), 1e-12);
   EXPECT_EQ(figures.mechanism_power[std::size_t(Mechanism::direct)], 5.5);
   EXPECT_EQ(figures.mechanism_power[std::size_t(Mechanism::diffraction)], 2.0);
+  EXPECT_EQ(figures.model_power[std::size_t(EdgeModel::utd)], 1.5);
+  EXPECT_EQ(figures.model_power[std::size_t(EdgeModel::fsd)], 0.25);
+  EXPECT_EQ(figures.model_power[std::size_t(EdgeModel::polygon)], 0.25);
+  EXPECT_EQ(figures.model_power[std::size_t(EdgeModel::published)], 0);
   EXPECT_EQ(figures.mechanism_power[std::size_t(Mechanism::interference)], -0.5);
   EXPECT_EQ(figures.mechanism_power[std::size_t(Mechanism::reflection)], 0.0);
 }
