@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <span>
 #include <utility>
 
 #include "core/constants.h"
@@ -94,18 +95,37 @@ Shape shape_of(const Scene& scene, const std::vector<std::uint32_t>& triangles) 
   return shape;
 }
 
+/// Lowest and highest coordinates.
+std::array<Vec3, 2> box_of(const Scene& scene, std::span<const std::uint32_t> triangles) {
+  std::array<Vec3, 2> bounds{scene.high, scene.low};
+  for (const std::uint32_t t : triangles)
+    for (const std::uint32_t v : scene.triangles[t]) {
+      const Vec3& p = scene.vertices[v];
+      bounds[0] = {std::min(bounds[0].x, p.x), std::min(bounds[0].y, p.y), std::min(bounds[0].z, p.z)};
+      bounds[1] = {std::max(bounds[1].x, p.x), std::max(bounds[1].y, p.y), std::max(bounds[1].z, p.z)};
+    }
+  return bounds;
+}
+
+/// True if no other triangle's box comes within 1 cm of the object's.
+bool stands_free(const Scene& scene, const SmallObject& object) {
+  constexpr double gap = 0.01;
+  const auto own = box_of(scene, object.triangles);
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+    const auto other = box_of(scene, {&t, 1});
+    bool apart = false;
+    for (int axis = 0; axis < 3; ++axis)
+      apart = apart || other[0][axis] > own[1][axis] + gap || other[1][axis] < own[0][axis] - gap;
+    if (!apart && !std::binary_search(object.triangles.begin(), object.triangles.end(), t)) return false;
+  }
+  return true;
+}
+
 /// The object of these triangles with its measures.
 SmallObject bounded(const Scene& scene, const std::vector<std::uint32_t>& triangles) {
   SmallObject object{{}, 0, 0, false, triangles};
-  Vec3 low = corners(scene, triangles[0]).a, high = low;
-  for (const std::uint32_t t : triangles) {
-    object.area += 0.5 * norm(corners(scene, t).normal());
-    for (const std::uint32_t v : scene.triangles[t]) {
-      const Vec3& p = scene.vertices[v];
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-  }
+  for (const std::uint32_t t : triangles) object.area += 0.5 * norm(corners(scene, t).normal());
+  const auto [low, high] = box_of(scene, triangles);
   object.centre = 0.5 * (low + high);
   for (const std::uint32_t t : triangles)
     for (const std::uint32_t v : scene.triangles[t])
@@ -144,6 +164,7 @@ SmallObjects find_small_objects(const Scene& scene, double largest) {
       rims = rims && wedges.wedges[w].free_rim == shape.sheet;
     }
     if (!rims || std::abs(length - shape.edges) > whole * shape.edges) continue;
+    if (!stands_free(scene, object)) continue;
     object.sheet = shape.sheet;
     for (const std::uint32_t w : wedges_of[part]) found.of_wedge[w] = static_cast<std::uint32_t>(found.objects.size());
     found.objects.push_back(std::move(object));

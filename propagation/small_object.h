@@ -31,9 +31,10 @@ struct SmallObjects {
 /// Method: triangles that share a welded vertex are one component. It is an object if it is flat (all vertices within
 /// 1 mm of one plane) with a rim of free rims alone, holes in it allowed, or closed (two triangles at each edge),
 /// convex (no vertex more than 1 mm before a triangle's plane) and with all its sharp edges free: the lengths of its
-/// wedges add up to those of its edges above 185°, within 1 %. So what stands on the ground or touches a wall is none,
-/// nor is a sheet with an artificial rim. Inputs: a scene as build_scene leaves it; m. Returns: in the order of their
-/// first triangles. Error: none. Throws: nothing.
+/// wedges add up to those of its edges above 185°, within 1 %; and no triangle
+/// of another component has a bounding box within 1 cm of its own. So what stands on the ground or touches a wall is
+/// none, nor is a sheet with an artificial rim. Inputs: a scene as build_scene leaves it; m. Returns: in the order of
+/// their first triangles. Error: none. Throws: nothing.
 SmallObjects find_small_objects(const Scene& scene, double largest);
 
 /// True if the straight way from a to b goes through a triangle of the object. Inputs: m. Error: that of rounding at

@@ -96,7 +96,7 @@ TEST(SmallObject, SheetsAndConvexSolidsThatStandFree) {
   append(description, 0, 0, 1);
   append(description, 20, 1, 1);
   append(description, 40, 2, 2);
-  append(description, 42, 1, 1);  // touches the one before: neither is free
+  append(description, 42, 1, 1);  // touches the one before: neither stands free
   const Scene scene = built(description);
   const SmallObjects found = find_small_objects(scene, 1e3);
   ASSERT_EQ(found.objects.size(), 2u);
