@@ -178,6 +178,37 @@ void add_bounded_wave(const Scene& scene, const Plan& plan, const Transmitter& t
     for (std::size_t p = 0; p < 2; ++p) field[band][p] += sign * wave[band][p];
 }
 
+/// Of a path over two edges of one small object in a row: the object's wave has taken the share of that pair too.
+void leave_pairs_to_objects(const Plan& plan, std::span<const Interaction> interactions, const PathGeometry& geometry,
+                            std::span<BandField> field) {
+  for (std::size_t i = 0, e = 0; i + 1 < interactions.size(); e += is_edge(interactions[i]), ++i) {
+    if (!is_edge(interactions[i]) || !is_edge(interactions[i + 1])) continue;
+    const EdgePassage &first = geometry.edges[e], &second = geometry.edges[e + 1];
+    const SmallObject* object = plan.small_objects.at(first.wedge);
+    if (object == nullptr || object != plan.small_objects.at(second.wedge)) continue;
+    for (std::size_t band = 0; band < plan.bands(); ++band) {
+      const double edges =
+          1 - polygon_share(object->diameter, first.s_in, second.s_out, 2 * pi / plan.wavenumber[band]);
+      for (std::complex<double>& part : field[band]) part *= edges;
+    }
+  }
+}
+
+/// Shares of the models in the wave of one edge, at the first band.
+std::array<double, edge_model_count> edge_shares(const Scene& scene, const Plan& plan, const Vec3& source,
+                                                 std::span<const Interaction> interactions,
+                                                 const PathGeometry& geometry, std::size_t edge) {
+  const double wavelength = 2 * pi / plan.wavenumber.front();
+  double polygon = 0;
+  if (!plan.small_objects.objects.empty())
+    if (const ObjectPath path = object_path(scene, plan, source, interactions, geometry); path.object != nullptr)
+      polygon = path.share(wavelength);
+  const EdgePassage& passage = geometry.edges[edge];
+  const double utd =
+      utd_share(plan.request.diffraction_model, scene.wedges.wedges[passage.wedge].length, passage, wavelength);
+  return {(1 - polygon) * utd, (1 - polygon) * (1 - utd), polygon, 0};
+}
+
 }  // namespace
 
 SequenceHash object_name(const Scene& scene, const Plan& plan, const Vec3& source,
@@ -203,6 +234,7 @@ void arrival_field(const Scene& scene, const Plan& plan, const Transmitter& tran
                    std::span<BandField> field) {
   path_field(scene, plan, transmitter, interactions, geometry, field);
   if (plan.small_objects.objects.empty()) return;
+  if (geometry.edge_count > 1) return leave_pairs_to_objects(plan, interactions, geometry, field);
   const ObjectPath path = object_path(scene, plan, transmitter.position, interactions, geometry);
   if (path.object == nullptr) return;
   std::vector<double> share(plan.bands());
@@ -232,20 +264,22 @@ std::array<double, edge_model_count> model_shares(const Scene& scene, const Plan
                                                   std::span<const Interaction> interactions,
                                                   const PathGeometry& geometry) {
   std::array<double, edge_model_count> shares{};
-  const double wavelength = 2 * pi / plan.wavenumber.front();
-  double polygon = 0;
-  if (!plan.small_objects.objects.empty())
-    if (const ObjectPath path = object_path(scene, plan, source, interactions, geometry); path.object != nullptr)
-      polygon = path.share(wavelength);
-  for (std::size_t i = 0; i < geometry.edge_count; ++i) {
-    const EdgePassage& passage = geometry.edges[i];
-    const double utd =
-        utd_share(plan.request.diffraction_model, scene.wedges.wedges[passage.wedge].length, passage, wavelength);
-    shares[std::size_t(EdgeModel::utd)] += (1 - polygon) * utd / double(geometry.edge_count);
-    shares[std::size_t(EdgeModel::fsd)] += (1 - polygon) * (1 - utd) / double(geometry.edge_count);
+  for (std::size_t e = 0; e < geometry.edge_count; ++e) {
+    const auto of_edge = edge_shares(scene, plan, source, interactions, geometry, e);
+    for (std::size_t m = 0; m < edge_model_count; ++m) shares[m] += of_edge[m] / double(geometry.edge_count);
   }
-  shares[std::size_t(EdgeModel::polygon)] = polygon;
   return shares;
+}
+
+std::string model_words(const Scene& scene, const Plan& plan, const Vec3& source,
+                        std::span<const Interaction> interactions, const PathGeometry& geometry) {
+  std::string words;
+  for (std::size_t e = 0; e < geometry.edge_count; ++e) {
+    const auto shares = edge_shares(scene, plan, source, interactions, geometry, e);
+    if (!words.empty()) words += ' ';
+    words += edge_model_names[std::max_element(shares.begin(), shares.end()) - shares.begin()];
+  }
+  return words;
 }
 
 }  // namespace grimaldi

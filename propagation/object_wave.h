@@ -4,6 +4,7 @@
 #include <array>
 #include <complex>
 #include <span>
+#include <string>
 
 #include "propagation/composite.h"
 #include "propagation/edge_model.h"
@@ -20,7 +21,8 @@ SequenceHash object_name(const Scene& scene, const Plan& plan, const Vec3& sourc
 /// Whether a path of that name brings the object's wave: the first of the arrivals at a point.
 bool carries_object(std::span<const Arrival> before, SequenceHash name);
 
-/// path_field; under `auto`, of a path over one edge of a small object, (1 − w) of it and w of the object's wave.
+/// path_field; under `auto`, of a path over one edge of a small object, (1 − w) of it and w of the object's wave, of
+/// one over two edges of an object in a row (1 − w) of it.
 ///
 /// The wave of a whole object (w = polygon_share, from its middle). With incident wave e^{−jk s'}/s' along i, direction
 /// o to the receiver at s, triangles T of unit normals n, x = n·i, y = n·o:
@@ -49,5 +51,9 @@ void arrival_field(const Scene& scene, const Plan& plan, const Transmitter& tran
 std::array<double, edge_model_count> model_shares(const Scene& scene, const Plan& plan, const Vec3& source,
                                                   std::span<const Interaction> interactions,
                                                   const PathGeometry& geometry);
+
+/// For each edge of a path the model with the largest share at the first band, as edge_model_names, by blanks.
+std::string model_words(const Scene& scene, const Plan& plan, const Vec3& source,
+                        std::span<const Interaction> interactions, const PathGeometry& geometry);
 
 }  // namespace grimaldi

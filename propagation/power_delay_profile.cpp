@@ -101,7 +101,7 @@ void delay_statistics(const std::vector<Arrival>& arrivals, const Plan& plan, Po
   spread = std::sqrt(std::max(0.0, second / power - mean * mean));
 }
 
-PathStory story(const Scene& scene, const Plan& plan, const Arrival& arrival) {
+PathStory story(const Scene& scene, const Plan& plan, const Transmitter& transmitter, const Arrival& arrival) {
   PathStory path;
   path.delay = arrival.geometry.length / plan.speed;
   for (std::size_t p = 0; p < plan.polarisations(); ++p)
@@ -114,6 +114,7 @@ PathStory story(const Scene& scene, const Plan& plan, const Arrival& arrival) {
   path.arrival_azimuth = azimuth(towards);
   path.arrival_elevation = elevation(towards);
   path.interactions = interaction_tokens(scene, arrival.interactions);
+  path.models = model_words(scene, plan, transmitter.position, arrival.interactions, arrival.geometry);
   path.points.assign(g.points.begin(), g.points.begin() + static_cast<std::ptrdiff_t>(g.count));
   return path;
 }
@@ -143,7 +144,7 @@ void add_transmitter(const Scene& scene, const Plan& plan, std::size_t transmitt
   for (const auto& [power, i] : order) {
     // A path that the receiver's polarisation does not take is none of its paths.
     if (power == 0) break;
-    paths.push_back(story(scene, plan, arrivals[i]));
+    paths.push_back(story(scene, plan, plan.request.transmitters[transmitter], arrivals[i]));
   }
 }
 

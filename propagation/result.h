@@ -40,6 +40,7 @@ struct PathStory {
   double departure_azimuth = 0, departure_elevation = 0, arrival_azimuth = 0, arrival_elevation = 0;  ///< degrees
   std::string interactions;  ///< tokens R:material, D:edge-number, by blanks
   std::vector<Vec3> points;  ///< transmitter, interaction points, receiver
+  std::string models;        ///< of its edges in order, by blanks: the one of edge_model_names with the largest share
 };
 
 /// Profile at one receiver. T transmitters, F bands, B delay bins.

@@ -128,9 +128,9 @@ Case small_case(WaveKind kind = WaveKind::radio) {
     return values;
   };
   corner.paths = {
-      {{1e-7, amplitudes(1), 10, 20, 30, 40, "", {{0, 1, 2}, {3, 4, 5}}},
-       {1.1e-7, amplitudes(100), 11, 21, 31, 41, "R:concrete D:17", {{6, 7, 8}, {9, 10, 11}, {12, 13, 14}}}},
-      {{2e-7, amplitudes(200), 12, 22, 32, 42, "D:3", {{15, 16, 17}, {18, 19, 20}}}}};
+      {{1e-7, amplitudes(1), 10, 20, 30, 40, "", {{0, 1, 2}, {3, 4, 5}}, ""},
+       {1.1e-7, amplitudes(100), 11, 21, 31, 41, "R:concrete D:17", {{6, 7, 8}, {9, 10, 11}, {12, 13, 14}}, "utd"}},
+      {{2e-7, amplitudes(200), 12, 22, 32, 42, "D:3", {{15, 16, 17}, {18, 19, 20}}, "fsd-polygon"}}};
   ReceiverProfile dark;
   dark.name = "dark.2";
   dark.total = dark.total_coherent = std::vector<double>(T * F, 0.0);
@@ -279,6 +279,7 @@ TEST_F(ResultFile, ProfileIsReadByBothEngines) {
   holds("arrival_azimuth", each, {30.0, 31.0, 32.0, nullptr}, "degree");
   holds("arrival_elevation", each, {40.0, 41.0, 42.0, nullptr}, "degree");
   holds("path_interactions", each, {"", "R:concrete D:17", "D:3", ""}, "");
+  holds("path_models", each, {"", "utd", "fsd-polygon", ""}, "");
   std::vector<double> real;
   for (const double base : {1.0, 100.0, 200.0, nan_value})
     for (const double value : ramp(6, base)) real.push_back(value);
@@ -293,7 +294,7 @@ TEST_F(ResultFile, ProfileIsReadByBothEngines) {
   holds("path_point_count", each, {2, 3, 2, 0}, "1");
   EXPECT_EQ(v["path_point_count"]["kind"], "i");
   EXPECT_EQ(v["path_point_count"]["attributes"]["sample_dimension"], "point");
-  EXPECT_EQ(v.size(), 22u);  // those above, transmitter and frequency: nothing else lies in the group
+  EXPECT_EQ(v.size(), 23u);  // those above, transmitter and frequency: nothing else lies in the group
 }
 
 TEST_F(ResultFile, ReceiverWithoutPathsIsReadable) {

@@ -25,6 +25,7 @@ PlanDescription plan_for(Wave wave) {
   const bool sound = wave == Wave::rigid;
   PlanDescription plan = point_to_point(sound ? WaveKind::acoustic : WaveKind::radio, sound ? 1000 : 1e9, {}, 1e5);
   plan.diffraction_model = DiffractionModel::automatic;
+  plan.depth = 2;  // paths over two edges of an object belong to its wave too
   return plan;
 }
 
@@ -33,9 +34,9 @@ double wavelength_of(Wave wave) { return wavelength_of(plan_for(wave)); }
 /// Levels of the engine over the free wave, dB: fields of all paths added, or as a map adds them. Places in
 /// wavelengths.
 std::vector<double> levels(const Scene& scene, Wave wave, const Vec3& source, const std::vector<Vec3>& points,
-                           bool coherent, DiffractionModel model = DiffractionModel::automatic) {
+                           bool coherent, int depth = 2) {
   PlanDescription plan = plan_for(wave);
-  plan.diffraction_model = model;
+  plan.depth = depth;
   const double wavelength = wavelength_of(plan);
   plan.transmitters[0].position = wavelength * source;
   for (const Vec3& point : points) add_receiver(plan, wavelength * point);
@@ -148,7 +149,7 @@ Outcome box_behind(double size, double depth, Wave wave) {
 
 /// The largest step of the level on a straight way: between points of the whole way, then ten times as near wherever it
 /// was largest, twice. A slope becomes a hundredth, a jump stays.
-Outcome largest_step(const Scene& scene, Wave wave, const Vec3& source, const Vec3& from, const Vec3& to) {
+Outcome largest_step(const Scene& scene, Wave wave, const Vec3& source, const Vec3& from, const Vec3& to, int depth) {
   constexpr int points = 240, parts = 10, places = 6;
   struct Step {
     double from, to, size;
@@ -158,7 +159,7 @@ Outcome largest_step(const Scene& scene, Wave wave, const Vec3& source, const Ve
   const auto add = [&](const std::vector<double>& shares, std::size_t run) {
     std::vector<Vec3> places_there;
     for (const double share : shares) places_there.push_back(from + share * (to - from));
-    const std::vector<double> level = levels(scene, wave, source, places_there, false);
+    const std::vector<double> level = levels(scene, wave, source, places_there, false, depth);
     for (std::size_t i = 1; i < shares.size(); ++i)
       if (i % run != 0) steps.push_back({shares[i - 1], shares[i], std::abs(level[i] - level[i - 1])});
     for (const double one : level) nothing = nothing || !std::isfinite(one);
@@ -285,8 +286,9 @@ Cases auto_cases() {
     struct Walk {
       const char* name;
       const char* words;
-      double size, depth;  ///< of a plate, or of a box
+      double size, thick;  ///< of a plate, or of a box
       Vec3 source, from, to;
+      int depth;
     };
     const Walk walks[] = {
         {"away",
@@ -295,17 +297,19 @@ Cases auto_cases() {
          0,
          on_axis,
          {12, 0.4, 0.3},
-         {250, 0.4, 0.3}},
-        {"aside", "behind a small plate, out of its shadow", 3, 0, on_axis, {120, 0.3, 0.2}, {120, 40, 9}},
-        {"before", "before a small plate, over its reflection", 3, 0, {-150, 20, 0}, {-120, -50, 3}, {-120, 20, 3}},
-        {"around", "past a small box", 2, 1.5, {-70, 0, 0}, {90, -60, 5}, {90, 30, -7}},
+         {250, 0.4, 0.3},
+         2},
+        {"aside", "behind a small plate, out of its shadow", 3, 0, on_axis, {120, 0.3, 0.2}, {120, 40, 9}, 2},
+        {"before", "before a small plate, over its reflection", 3, 0, {-150, 20, 0}, {-120, -50, 3}, {-120, 20, 3}, 2},
+        {"around", "past a small box", 2, 1.5, {-70, 0, 0}, {90, -60, 5}, {90, 30, -7}, 2},
         {"beside",
          "in the shadow of a box, from long edges to short ones",
          10,
          10,
          {-100, 12, 2},
          {20, 3, 1.5},
-         {140, -4.6, 1.5}},
+         {140, -4.6, 1.5},
+         1},
     };
     for (const Walk& walk : walks)
       cases.push_back({fmt::format("auto/walk/{}/{}", walk.name, name_of(wave)),
@@ -313,8 +317,8 @@ Cases auto_cases() {
                        "continuity", "dB", 0.5, "the goal of a level without steps", 0, [=] {
                          const double unit = wavelength_of(wave);
                          const Scene scene =
-                             walk.depth > 0 ? closed_scene(walk.size, walk.depth, unit) : plate_scene(walk.size, unit);
-                         return largest_step(scene, wave, walk.source, walk.from, walk.to);
+                             walk.thick > 0 ? closed_scene(walk.size, walk.thick, unit) : plate_scene(walk.size, unit);
+                         return largest_step(scene, wave, walk.source, walk.from, walk.to, walk.depth);
                        }});
   }
   for (const bool box : {false, true})
