@@ -8,9 +8,9 @@
 namespace grimaldi {
 namespace {
 
-constexpr double edge_over_zone = 2;        ///< l/r_F from which UTD holds
-constexpr double largest_far_number = 0.1;  ///< N up to which the polygon form holds
-constexpr double leg_over_diameter = 2;     ///< s/D from which it does
+constexpr double edge_over_zone = 2;                ///< l/r_F from which UTD holds
+constexpr double far_sheet = 0.1, far_solid = 0.5;  ///< N up to which the polygon form is taken
+constexpr double leg_over_diameter = 2;             ///< s/D from which it does
 
 /// 0 up to ½, 1 from 1 on.
 double fade(double x) {
@@ -28,25 +28,25 @@ double utd_share(DiffractionModel model, double length, const EdgePassage& passa
   return fade(length / std::max(edge_over_zone * zone, wavelength));
 }
 
-double polygon_share(double diameter, double s_in, double s_out, double wavelength) {
+double polygon_share(double diameter, bool sheet, double s_in, double s_out, double wavelength) {
   const double zone2 = wavelength * s_in * s_out / (s_in + s_out);
-  const double far = 2 * std::sqrt(largest_far_number * zone2) / diameter;
+  const double far = 2 * std::sqrt((sheet ? far_sheet : far_solid) * zone2) / diameter;
   return fade(std::min(far, std::min(s_in, s_out) / (leg_over_diameter * diameter)));
 }
 
-double object_wave_bound(const SmallObjects& objects, const EdgePassage& passage, double wavenumber) {
-  const SmallObject* object = objects.at(passage.wedge);
+double object_wave_bound(const SmallObjects& objects, const EdgePassage& first, double s_out, double wavenumber) {
+  const SmallObject* object = objects.at(first.wedge);
   if (object == nullptr) return 0;
   const double d = object->diameter;
   // A share grows with the legs.
-  if (polygon_share(d, passage.s_in + d, passage.s_out + d, 2 * pi / wavenumber) == 0) return 0;
-  const double in = std::max(d, passage.s_in - 0.5 * d), out = std::max(d, passage.s_out - 0.5 * d);
+  if (polygon_share(d, object->sheet, first.s_in + d, s_out + d, 2 * pi / wavenumber) == 0) return 0;
+  const double in = std::max(d, first.s_in - 0.5 * d), out = std::max(d, s_out - 0.5 * d);
   return 2 / (in + out) + wavenumber / pi * object->area / (in * out);
 }
 
 double largest_small_diameter(double reach, double wavelength) {
   // L is largest in the middle, reach/4.
-  return 4 * std::sqrt(largest_far_number * wavelength * 0.25 * reach);
+  return 4 * std::sqrt(far_solid * wavelength * 0.25 * reach);
 }
 
 }  // namespace grimaldi

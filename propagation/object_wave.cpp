@@ -17,28 +17,35 @@ namespace {
 using Complex = std::complex<double>;
 using BandField = std::array<Complex, 2>;
 
-/// A path over one edge of a small object, unfolded about the object.
+/// A path over one edge of a small object, or over two in a row, unfolded about the object.
 struct ObjectPath {
   const SmallObject* object = nullptr;
-  std::size_t position = 0;  ///< of the edge in the sequence
-  Vec3 source, receiver;     ///< as the object sees them
-  Vec3 in, out;              ///< unit directions
+  std::size_t position = 0;  ///< of the first edge in the sequence
+  std::size_t edges = 1;
+  Vec3 source, receiver;  ///< as the object sees them
+  Vec3 in, out;           ///< unit directions
   double s_in = 0, s_out = 0;
-  double share(double wavelength) const { return polygon_share(object->diameter, s_in, s_out, wavelength); }
+  double share(double wavelength) const {
+    return polygon_share(object->diameter, object->sheet, s_in, s_out, wavelength);
+  }
 };
 
 ObjectPath object_path(const Scene& scene, const Plan& plan, const Vec3& source,
                        std::span<const Interaction> interactions, const PathGeometry& geometry) {
   ObjectPath path;
-  if (geometry.edge_count != 1) return path;
-  path.object = plan.small_objects.at(geometry.edges[0].wedge);
-  if (path.object == nullptr) return path;
+  if (geometry.edge_count == 0 || geometry.edge_count > 2) return path;
+  const SmallObject* const object = plan.small_objects.at(geometry.edges[0].wedge);
   const auto& patches = scene.patches.patches;
   while (!is_edge(interactions[path.position])) ++path.position;
+  path.edges = geometry.edge_count;
+  if (object == nullptr || !is_edge(interactions[path.position + path.edges - 1]) ||
+      plan.small_objects.at(geometry.edges[path.edges - 1].wedge) != object)
+    return path;
+  path.object = object;
   path.source = source;
   for (std::size_t i = 0; i < path.position; ++i) path.source = mirrored(path.source, patches[interactions[i]]);
   path.receiver = geometry.points[geometry.count - 1];
-  for (std::size_t i = interactions.size(); i-- > path.position + 1;)
+  for (std::size_t i = interactions.size(); i-- > path.position + path.edges;)
     path.receiver = mirrored(path.receiver, patches[interactions[i]]);
   const Vec3 in = path.object->centre - path.source, out = path.receiver - path.object->centre;
   path.s_in = norm(in);
@@ -138,7 +145,7 @@ void object_wave(const Scene& scene, const Plan& plan, const Transmitter& transm
     ComplexVec3 wave{launched.x, launched.y, launched.z};
     pass_faces(0, path.position, launch, wave, band);
     wave = scattered(scene, plan, path, wave, band);
-    const Vec3 arriving = pass_faces(path.position + 1, interactions.size(), path.out, wave, band);
+    const Vec3 arriving = pass_faces(path.position + path.edges, interactions.size(), path.out, wave, band);
     const double scale = (radio ? 1 / (2 * plan.wavenumber[band]) : 1 / std::sqrt(4 * pi)) *
                          std::exp(-plan.attenuation[band] * (path.s_in + path.s_out));
     const PolarFrame receiver = polar_frame(-arriving);
@@ -156,10 +163,8 @@ void add_bounded_wave(const Scene& scene, const Plan& plan, const Transmitter& t
                       std::uint32_t face, std::span<BandField> field) {
   std::vector<Interaction> bounded(interactions.begin(), interactions.end());
   const auto here = bounded.begin() + static_cast<std::ptrdiff_t>(path.position);
-  if (face == no_index)
-    bounded.erase(here);
-  else
-    *here = face;
+  bounded.erase(here, here + static_cast<std::ptrdiff_t>(path.edges));
+  if (face != no_index) bounded.insert(bounded.begin() + static_cast<std::ptrdiff_t>(path.position), face);
   PathGeometry geometry;
   UnfoldedSequence unfolded(scene, transmitter.position, bounded);
   if (!unfolded.solve_in_planes(receiver, 2 * pi / plan.wavenumber.front(), geometry)) return;
@@ -178,20 +183,10 @@ void add_bounded_wave(const Scene& scene, const Plan& plan, const Transmitter& t
     for (std::size_t p = 0; p < 2; ++p) field[band][p] += sign * wave[band][p];
 }
 
-/// Of a path over two edges of one small object in a row: the object's wave has taken the share of that pair too.
-void leave_pairs_to_objects(const Plan& plan, std::span<const Interaction> interactions, const PathGeometry& geometry,
-                            std::span<BandField> field) {
-  for (std::size_t i = 0, e = 0; i + 1 < interactions.size(); e += is_edge(interactions[i]), ++i) {
-    if (!is_edge(interactions[i]) || !is_edge(interactions[i + 1])) continue;
-    const EdgePassage &first = geometry.edges[e], &second = geometry.edges[e + 1];
-    const SmallObject* object = plan.small_objects.at(first.wedge);
-    if (object == nullptr || object != plan.small_objects.at(second.wedge)) continue;
-    for (std::size_t band = 0; band < plan.bands(); ++band) {
-      const double edges =
-          1 - polygon_share(object->diameter, first.s_in, second.s_out, 2 * pi / plan.wavenumber[band]);
-      for (std::complex<double>& part : field[band]) part *= edges;
-    }
-  }
+/// Whether a path may bring its object's wave: over one edge; over two only in the object's shadow, where no edge may
+/// be seen from both ends. (Two edges are not tied to the direct wave.)
+bool brings_object(const Scene& scene, const ObjectPath& path) {
+  return path.object != nullptr && (path.edges == 1 || crosses(scene, *path.object, path.source, path.receiver));
 }
 
 /// Shares of the models in the wave of one edge, at the first band.
@@ -215,13 +210,12 @@ SequenceHash object_name(const Scene& scene, const Plan& plan, const Vec3& sourc
                          std::span<const Interaction> interactions, const PathGeometry& geometry) {
   if (plan.small_objects.objects.empty()) return 0;
   const ObjectPath path = object_path(scene, plan, source, interactions, geometry);
-  if (path.object == nullptr || path.share(2 * pi / plan.wavenumber.front()) == 0) return 0;
+  if (!brings_object(scene, path) || path.share(2 * pi / plan.wavenumber.front()) == 0) return 0;
+  const auto number = static_cast<std::uint32_t>(path.object - plan.small_objects.objects.data());
   SequenceHash name = empty_sequence;
   for (std::size_t i = 0; i < interactions.size(); ++i)
-    name = extended(name,
-                    i == path.position
-                        ? edge_interaction(static_cast<std::uint32_t>(path.object - plan.small_objects.objects.data()))
-                        : interactions[i]);
+    if (i == path.position || !is_edge(interactions[i]))
+      name = extended(name, is_edge(interactions[i]) ? edge_interaction(number) : interactions[i]);
   return name;
 }
 
@@ -234,19 +228,19 @@ void arrival_field(const Scene& scene, const Plan& plan, const Transmitter& tran
                    std::span<BandField> field) {
   path_field(scene, plan, transmitter, interactions, geometry, field);
   if (plan.small_objects.objects.empty()) return;
-  if (geometry.edge_count > 1) return leave_pairs_to_objects(plan, interactions, geometry, field);
   const ObjectPath path = object_path(scene, plan, transmitter.position, interactions, geometry);
   if (path.object == nullptr) return;
   std::vector<double> share(plan.bands());
   for (std::size_t band = 0; band < plan.bands(); ++band) share[band] = path.share(2 * pi / plan.wavenumber[band]);
   if (share.front() == 0) return;  // N is least at the longest wave
   std::vector<BandField> whole(plan.bands());
-  if (carries) {
+  if (carries && brings_object(scene, path)) {
     object_wave(scene, plan, transmitter, interactions, path, whole);
     const Vec3& receiver = geometry.points[geometry.count - 1];
     add_bounded_wave(scene, plan, transmitter, interactions, path, receiver, no_index, whole);
     std::vector<std::uint32_t> faces;
-    const auto reflections = static_cast<int>(interactions.size());  // faces of the path and the object's own
+    // Faces of the path and the object's own.
+    const auto reflections = static_cast<int>(interactions.size() - path.edges + 1);
     if (plan.request.reflection && reflections <= plan.request.max_reflections)
       for (const std::uint32_t t : path.object->triangles)
         if (const std::uint32_t face = scene.patches.triangle_patch[t];

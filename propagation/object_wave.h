@@ -21,8 +21,8 @@ SequenceHash object_name(const Scene& scene, const Plan& plan, const Vec3& sourc
 /// Whether a path of that name brings the object's wave: the first of the arrivals at a point.
 bool carries_object(std::span<const Arrival> before, SequenceHash name);
 
-/// path_field; under `auto`, of a path over one edge of a small object, (1 − w) of it and w of the object's wave, of
-/// one over two edges of an object in a row (1 − w) of it.
+/// path_field; under `auto`, of a path over one edge of a small object or over two of them in a row, (1 − w) of it and
+/// w of the object's wave (over two only in the object's shadow, where it may be that no edge is seen from both ends).
 ///
 /// The wave of a whole object (w = polygon_share, from its middle). With incident wave e^{−jk s'}/s' along i, direction
 /// o to the receiver at s, triangles T of unit normals n, x = n·i, y = n·o:
@@ -39,7 +39,7 @@ bool carries_object(std::span<const Arrival> before, SequenceHash name);
 /// physical optics at the mirror's direction. Transform of a triangle: triangle_transform. Polarisation: E turned as i
 /// turns to o; reflected as by the face's plane. Faces before and after the object by mirrors of source and receiver.
 /// Inputs: `carries`: true for the one path at a point that brings the object's wave, false for others of the same
-/// object_name. Valid: one edge; objects as in small_object.h, nothing else near the straight ways past them.
+/// object_name. Valid: objects as in small_object.h, nothing else near the straight ways past them.
 /// Error: 0.3 dB against Kirchhoff's integral up to N = 0.1 (held by the cases `auto`). Reciprocal but for the
 /// antennas.
 void arrival_field(const Scene& scene, const Plan& plan, const Transmitter& transmitter,

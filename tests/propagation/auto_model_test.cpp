@@ -41,8 +41,8 @@ TEST(EdgeModel, SharesAreContinuousSteadyAndSymmetric) {
   for (double length = 1; length < 40; length *= 1.002) {
     const double next = utd_share(DiffractionModel::automatic, length, passage(70, 130), 0.5);
     EXPECT_EQ(next, utd_share(DiffractionModel::automatic, length, passage(130, 70), 0.5));
-    const double whole = polygon_share(length, 70, 130, 0.5);
-    EXPECT_EQ(whole, polygon_share(length, 130, 70, 0.5));
+    const double whole = polygon_share(length, true, 70, 130, 0.5);
+    EXPECT_EQ(whole, polygon_share(length, true, 130, 70, 0.5));
     EXPECT_GE(next, utd);
     EXPECT_LE(whole, polygon);
     // The steepest slope of the fade is π/(2 ln 2) per unit of ln l: 0.0046 for a step of 0.2 %.
@@ -57,14 +57,14 @@ TEST(EdgeModel, SharesAreContinuousSteadyAndSymmetric) {
 
 TEST(EdgeModel, PolygonFormUpToAFresnelNumberOfATenth) {
   // L = 50 m, λ = 0.5 m: N = D²/100 m².
-  EXPECT_EQ(polygon_share(3.16, 100, 100, 0.5), 1);
-  EXPECT_EQ(polygon_share(6.33, 100, 100, 0.5), 0);
+  EXPECT_EQ(polygon_share(3.16, true, 100, 100, 0.5), 1);
+  EXPECT_EQ(polygon_share(6.33, true, 100, 100, 0.5), 0);
   // Nowhere within a diameter.
-  EXPECT_EQ(polygon_share(2, 1.99, 1e4, 10), 0);
+  EXPECT_EQ(polygon_share(2, true, 1.99, 1e4, 10), 0);
   // The largest diameter over a reach is that of the middle.
   const double largest = largest_small_diameter(200, 0.5);
-  EXPECT_GT(polygon_share(0.999 * largest, 100, 100, 0.5), 0);
-  EXPECT_EQ(polygon_share(1.001 * largest, 100, 100, 0.5), 0);
+  EXPECT_GT(polygon_share(0.999 * largest, false, 100, 100, 0.5), 0);
+  EXPECT_EQ(polygon_share(1.001 * largest, false, 100, 100, 0.5), 0);
 }
 
 /// A flat rectangle in x = `x`, or with a depth a closed box behind it; metal.

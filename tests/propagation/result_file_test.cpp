@@ -531,8 +531,9 @@ TEST(Summary, HasTheKeysOfTheContract) {
                            "flux",
                            "mechanism_power",
                            "median_standard_error_dB",
-                           "p95_standard_error_dB",
+                           "model_power",
                            "outputs",
+                           "p95_standard_error_dB",
                            "passes",
                            "peak_memory_bytes",
                            "rays",
@@ -552,6 +553,7 @@ TEST(Summary, HasTheKeysOfTheContract) {
   EXPECT_EQ(summary["segments_per_second"], 4e5);  // 4e6 in 10 s
   EXPECT_EQ(summary["peak_memory_bytes"], 5'000'000'000u);
   EXPECT_EQ(summary["cells_reached"], 3);
+  EXPECT_EQ(summary["model_power"], json({{"utd", 1.5}, {"fsd", 0.25}, {"fsd-polygon", 0.25}, {"fsd-published", 0.0}}));
   EXPECT_EQ(summary["mechanism_power"], json({{"direct", 5.5},
                                               {"reflection", 0.0},
                                               {"transmission", 0.0},
