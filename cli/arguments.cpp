@@ -49,7 +49,7 @@ constexpr DirectOption wave_options[] = {
      "in place of --rays: 95 % of the cells with a standard error below, e.g. 1dB"},
     {"--time", "budget.time", "T", "in place of --rays: what can be found in that time, e.g. 60s"},
     {"--depth", "propagation.depth", "N", "most interactions along a path (default 3)"},
-    {"--diffraction", "propagation.diffraction", "MODEL", "fsd (default), utd or fsd-published"},
+    {"--diffraction", "propagation.diffraction", "MODEL", "fsd (default), utd, auto or fsd-published"},
     {"--mechanisms", "propagation.mechanisms", "M[,M...]", "of direct, reflection, diffraction (default: all)"},
     {"--seed", "budget.seed", "N", "seed of every random choice (default 1)"},
 };

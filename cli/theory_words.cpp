@@ -76,7 +76,9 @@ std::vector<std::string> theory_words(const std::vector<CaseResult>& results) {
       "What the map says for a choice by itself: the polygon form where N is 0.1 and less; connected edges where the "
       "corners are right-angled, or N is 0.4 and more, and edges are longer than two wavelengths; in between, and for "
       "other "
-      "corners, both err by 0.5 to 1.2 dB.",
+      "corners, both err by 0.5 to 1.2 dB. So does `auto`: small objects as wholes up to N of 0.1" +
+          range({"auto/plate/"}) + range({"auto/box/"}) + ", their edges from N of 0.4 on, both mixed between" +
+          range({"auto/fade/"}) + "; long edges by UTD, short ones by the BSDF, mixed between.",
       "Solid wedges: UTD is exact for the half-plane; for other wedges what it leaves out is some hundredths of the "
       "field at "
       "kρ = 1" +
@@ -110,6 +112,9 @@ std::string suite_words(const std::string& suite) {
       {"screens",
        "A strip, a slit and a rectangular plate as meshes through the whole engine. The fields of all paths are added "
        "and compared with Kirchhoff's integral where the screen is black, with boundary elements where it conducts."},
+      {"auto",
+       "The model that chooses for itself: small plates and boxes as meshes through the whole engine against "
+       "Kirchhoff's integral, and ways along which the choice changes."},
       {"roofs",
        "One and two flat roofs as meshes through the whole engine, against boundary elements: receivers from the light "
        "down into the shadow. Where nothing arrives the level counts as -100 dB."},

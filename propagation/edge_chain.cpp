@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/constants.h"
+#include "propagation/edge_model.h"
 #include "propagation/laws/utd.h"
 
 namespace grimaldi {
@@ -141,11 +142,18 @@ EdgeTerms edge_terms(DiffractionModel model, bool faces, const Wedge& wedge, con
                      double distance, double wavenumber) {
   EdgeTerms terms;
   const double phase = wavenumber * distance * passage.sin_beta * passage.sin_beta;
+  const double utd = utd_share(model, wedge.length, passage, 2 * pi / wavenumber);
+  double share = utd;
   const auto add = [&](const WedgeFactors& factors, bool dark, double lit_out, double lit_in, Boundary boundary) {
-    terms.term[terms.count++] = {
-        make_edge_wave(factors.argument), dark ? 1.0 : -1.0, factors.plain, factors.slope, lit_out, lit_in, boundary};
+    terms.term[terms.count++] = {make_edge_wave(factors.argument),
+                                 dark ? 1.0 : -1.0,
+                                 share * factors.plain,
+                                 share * factors.slope,
+                                 lit_out,
+                                 lit_in,
+                                 boundary};
   };
-  if (model == DiffractionModel::utd) {
+  if (utd > 0) {
     const double n = wedge.exterior_angle / pi;
     const auto turns = wedge_turns(wedge.exterior_angle, passage.phi_in, passage.phi_out);
     // The two sides of a thin screen are one mirror.
@@ -154,8 +162,9 @@ EdgeTerms edge_terms(DiffractionModel model, bool faces, const Wedge& wedge, con
     constexpr double lit_out[4] = {1, -1, 1, -1}, lit_in[4] = {-1, 1, 1, -1};
     for (std::size_t i = 0; i < 4; ++i)
       add(wedge_factors(n, phase, turns[i]), is_dark(wedge, passage, turns[i]), lit_out[i], lit_in[i], boundaries[i]);
-    return terms;
   }
+  if (utd == 1) return terms;
+  share = 1 - utd;
   const auto add_black = [&](Boundary boundary, double lit_out, double lit_in) {
     const double epsilon = beyond_boundary(wedge, passage, boundary);
     const double half = 0.5 * std::abs(epsilon);

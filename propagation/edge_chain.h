@@ -52,21 +52,25 @@ EdgeChain edge_chain(const Scene& scene, std::span<const Interaction> interactio
 struct EdgeTerm {
   EdgeWave wave;
   double sign;          ///< + on the dark side of its boundary
-  double plain, slope;  ///< WedgeFactors; 1 and cos(ε/2) of a black edge
+  double plain, slope;  ///< WedgeFactors, 1 and cos(ε/2) of a black edge; times the share of the model
   double lit_out;       ///< ±1: the azimuth φ of the way on grows towards the lit side, or not
   double lit_in;        ///< the same for φ' of the way here
   Boundary boundary;
   std::complex<double> value() const { return sign * plain * wave.wave; }
 };
 
+/// Terms of an edge's wave at the most: four of `utd` and three of `fsd`, where `auto` mixes both.
+inline constexpr std::size_t max_terms = 7;
+
 struct EdgeTerms {
-  std::array<EdgeTerm, 4> term;
+  std::array<EdgeTerm, max_terms> term;
   std::size_t count = 0;
   const EdgeTerm* begin() const { return term.data(); }
   const EdgeTerm* end() const { return term.data() + count; }
 };
 
-/// Terms of a passage. `utd`: four; `fsd`: the incident one and, with faces, the images in both (one of a thin screen).
+/// Terms of a passage. `utd`: four; `fsd`: the incident one and, with faces, the images in both (one of a thin screen);
+/// `auto`: both, each times its share (utd_share). A mix of fields is linear in the terms, in a chain of edges too.
 /// `distance` L, m, without sin²β. Which side of a boundary: `is_dark`.
 EdgeTerms edge_terms(DiffractionModel model, bool faces, const Wedge& wedge, const EdgePassage& passage,
                      double distance, double wavenumber);

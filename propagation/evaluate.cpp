@@ -12,6 +12,7 @@
 #include "propagation/composite.h"
 #include "propagation/fermat.h"
 #include "propagation/field.h"
+#include "propagation/object_wave.h"
 #include "propagation/sample.h"
 #include "propagation/ties.h"
 
@@ -68,6 +69,7 @@ class CellEvaluator {
     const auto points = grid_.of(cell);
     if (points.empty()) return;
     std::fill(sums_.begin(), sums_.end(), CellSums{});
+    models_ = {};
     const Transmitter& transmitter = plan_.request.transmitters[transmitter_];
     // Delays are summed about the straight line's, so that their variance keeps its digits.
     const double reference_delay = distance(transmitter.position, grid_.layout.centre(cell)) / plan_.speed;
@@ -188,8 +190,10 @@ class CellEvaluator {
   void find_field(std::size_t a) {
     Arrival& arrival = arrivals_[a];
     arrival.field.resize(plan_.bands());
-    path_field(scene_, plan_, plan_.request.transmitters[transmitter_], arrival.interactions, arrival.geometry,
-               arrival.field);
+    const Transmitter& transmitter = plan_.request.transmitters[transmitter_];
+    arrival.object = object_name(scene_, plan_, transmitter.position, arrival.interactions, arrival.geometry);
+    arrival_field(scene_, plan_, transmitter, arrival.interactions, arrival.geometry,
+                  carries_object({arrivals_.data(), a}, arrival.object), arrival.field);
   }
 
   bool has_edge(const Pair& pair) const { return count_edges(discovered_.sequences[pair.sequence]) > 0; }
@@ -204,12 +208,19 @@ class CellEvaluator {
       at_point_[band] += here;
       CellSums& sums = sums_[band];
       sums.layers[layer] += power;
+      if (band == 0 && layer == diffraction_layer) add_models(arrival, power);
       sums.power += power;
       if (is_strong(pair)) sums.strong += power;
       sums.delay += power * delay;
       sums.delay2 += power * delay * delay;
       if (std::has_single_bit(pair.passes)) sums.lone[std::countr_zero(pair.passes)] += power;
     }
+  }
+
+  void add_models(const Arrival& arrival, double power) {
+    const auto shares = model_shares(scene_, plan_, plan_.request.transmitters[transmitter_].position,
+                                     arrival.interactions, arrival.geometry);
+    for (std::size_t m = 0; m < edge_model_count; ++m) models_[m] += shares[m] * power;
   }
 
   /// The cross terms of a cell: of the strong paths from the dense points, of the others from the coarse ones. Each set
@@ -239,6 +250,8 @@ class CellEvaluator {
     for (const SubPoint& point : points) edge_points += point.edge_weight > 0, fine_points += point.weight > 0;
     const bool fine_counts = broken(cell, pairs, points);
     const std::size_t cells = grid_.layout.size(), bands = plan_.bands();
+    for (std::size_t m = 0; m < edge_model_count; ++m)
+      map_.model_gain[(transmitter_ * edge_model_count + m) * cells + cell] = models_[m];
     for (std::size_t band = 0; band < bands; ++band) {
       CellSums& sums = sums_[band];
       sums.layers[static_cast<std::size_t>(Mechanism::interference)] = interference(sums);
@@ -285,6 +298,7 @@ class CellEvaluator {
   const double wavelength_;
   CompositeSum composite_;
   std::vector<CellSums> sums_;
+  std::array<double, edge_model_count> models_{};  ///< power of diffraction at the first band
   std::vector<double> interference_, at_point_;
   std::vector<UnfoldedSequence> unfolded_;  ///< of the cell's pairs
   std::vector<std::uint32_t> sequences_;    ///< of the same
@@ -345,6 +359,7 @@ CoverageMap empty_map(const Plan& plan, const CoverageGrid& grid) {
   map.standard_error = map.path_gain;
   map.bias = map.path_gain;
   map.mechanism_gain = filled(transmitters * mechanism_count * bands, 0);
+  map.model_gain = filled(transmitters * edge_model_count, 0);
   map.mean_delay = filled(transmitters * bands, not_a_number);
   map.rms_delay_spread = map.mean_delay;
   map.detection_limit = filled(transmitters, 0);
@@ -407,6 +422,9 @@ void add_sampled_diffraction(const Scene& scene, const Tracer& tracer, const Pla
       const std::size_t at = (transmitter * bands + band) * cells + cell;
       map.mechanism_gain[((transmitter * mechanism_count + diffraction_layer) * bands + band) * cells + cell] +=
           layer.gain[cell];
+      if (band == 0)
+        map.model_gain[(transmitter * edge_model_count + std::size_t(EdgeModel::published)) * cells + cell] +=
+            layer.gain[cell];
       map.path_gain[at] += layer.gain[cell];
       map.standard_error[at] = std::hypot(map.standard_error[at], layer.standard_error[cell]);
     }

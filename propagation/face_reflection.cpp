@@ -5,8 +5,7 @@ namespace grimaldi {
 ReflectionCoefficients face_reflection(const Plan& plan, std::uint32_t material, std::size_t band,
                                        double cos_incidence) {
   const FaceMaterial& face = plan.materials[material];
-  if (plan.request.kind == WaveKind::radio)
-    return face.slab[band](cos_incidence);
+  if (plan.request.kind == WaveKind::radio) return face.slab[band](cos_incidence);
   const double factor = wall_reflection(face.absorption[band]);
   return {factor, factor};
 }

@@ -8,7 +8,8 @@
 
 namespace grimaldi {
 
-/// Coefficients of a face's material at band `band`: slab for radio (by its table, 1e-10), √(1 − α) twice for sound. cos_incidence 0 … 1.
+/// Coefficients of a face's material at band `band`: slab for radio (by its table, 1e-10), √(1 − α) twice for sound.
+/// cos_incidence 0 … 1.
 ReflectionCoefficients face_reflection(const Plan& plan, std::uint32_t material, std::size_t band,
                                        double cos_incidence);
 

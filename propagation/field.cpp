@@ -6,7 +6,9 @@
 
 #include "core/constants.h"
 #include "propagation/antenna.h"
+#include "propagation/edge_model.h"
 #include "propagation/face_reflection.h"
+#include "propagation/field_vector.h"
 #include "propagation/laws/free_space_diffraction.h"
 #include "propagation/laws/utd.h"
 
@@ -14,24 +16,6 @@ namespace grimaldi {
 namespace {
 
 using Complex = std::complex<double>;
-
-struct ComplexVec3 {
-  Complex x, y, z;
-};
-ComplexVec3 combine(Complex a, const Vec3& u, Complex b, const Vec3& v) {
-  return {a * u.x + b * v.x, a * u.y + b * v.y, a * u.z + b * v.z};
-}
-Complex dot(const ComplexVec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-
-/// Reflected field vector; k → k − 2 (k·n) n.
-ComplexVec3 reflect(const ComplexVec3& field, const Vec3& k, const Vec3& normal, const ReflectionCoefficients& r) {
-  const Vec3 k_out = k - 2 * dot(k, normal) * normal;
-  Vec3 s = cross(k, normal);
-  const double sine = norm(s);
-  s = sine > 1e-9 ? s / sine : perpendicular(normal);  // normal incidence: any direction across serves
-  const Complex te = r.te * dot(field, s), tm = r.tm * dot(field, cross(s, k));
-  return combine(te, s, tm, cross(s, k_out));
-}
 
 /// T of line 6: which part of each term there is, with the ends of the edge.
 class EndWeights {
@@ -94,7 +78,8 @@ Dyadic mean(const Dyadic& a, const Dyadic& b) {
 
 /// True if the faces of an edge have waves of their own.
 bool faces_count(const Plan& plan) {
-  return plan.request.reflection || plan.request.diffraction_model == DiffractionModel::utd;
+  const DiffractionModel model = plan.request.diffraction_model;
+  return plan.request.reflection || model == DiffractionModel::utd || model == DiffractionModel::automatic;
 }
 
 /// The faces of one edge as its wave meets them: dyadics (sound: bb alone). The mean of a face's dyadic for the way
@@ -145,7 +130,8 @@ double power_bound(const Scene& scene, const Plan& plan, std::span<const Interac
   for (std::size_t i = 0; i + 1 < geometry.edge_count; ++i)
     share = std::max(share, double_edge_share(chain.coupling[i]));
   double amplitude = chain.amplitude;
-  const bool utd = plan.request.diffraction_model == DiffractionModel::utd;
+  // The terms of `utd` are those of `fsd` and one more, and `auto` is between both.
+  const bool utd = plan.request.diffraction_model != DiffractionModel::fsd;
   for (std::size_t i = 0; i < geometry.edge_count; ++i) {
     const EdgePassage& passage = geometry.edges[i];
     const Wedge& wedge = scene.wedges.wedges[passage.wedge];
@@ -164,6 +150,9 @@ double power_bound(const Scene& scene, const Plan& plan, std::span<const Interac
     if (i > 0 && i + 1 < geometry.edge_count) sum *= 2 * share;
     amplitude *= sum;
   }
+  if (geometry.edge_count <= 2)
+    amplitude += object_wave_bound(plan.small_objects, geometry.edges[0], geometry.edges[geometry.edge_count - 1].s_out,
+                                   wavenumber);
   return unit * amplitude * amplitude;
 }
 
@@ -193,7 +182,7 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
   for (std::size_t band = 0; band < plan.bands(); ++band) {
     const double wavenumber = plan.wavenumber[band], wavelength = 2 * pi / wavenumber;
     // Between two edges there is one wave for each term of the edge before; at the ends of the path one in all.
-    std::array<ComplexVec3, 4> wave{ComplexVec3{launched.x, launched.y, launched.z}};
+    std::array<ComplexVec3, max_terms> wave{ComplexVec3{launched.x, launched.y, launched.z}};
     if (!radio) wave[0].x = 1;
     std::size_t waves = 1, edge_number = 0;
     double weight = 1;
@@ -227,7 +216,7 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
       const ConeFrame in(wedge.direction, k[i]), out(wedge.direction, k[i + 1]);
       std::optional<EdgeFaces> at_faces;
       if (faces) at_faces.emplace(plan, wedge, passage, band, k[i], k[i + 1], came, leaves);
-      std::array<std::array<Complex, 2>, 4> arriving;
+      std::array<std::array<Complex, 2>, max_terms> arriving;
       for (std::size_t a = 0; a < waves; ++a) {
         if (radio)
           arriving[a] = {dot(wave[a], in.beta), dot(wave[a], in.phi)};
@@ -235,7 +224,7 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
           arriving[a] = {wave[a].x, 0.0};
       }
       // Per term: all that arrives, through its face. A first edge leaves its factors to the pairs with the second.
-      std::array<std::array<Complex, 2>, 4> leaving{};
+      std::array<std::array<Complex, 2>, max_terms> leaving{};
       for (std::size_t t = 0; t < terms.count; ++t) {
         const EdgeTerm& term = terms.term[t];
         std::array<Complex, 2> sum{};

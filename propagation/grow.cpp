@@ -11,7 +11,7 @@
 #include "propagation/connect.h"
 #include "propagation/effort.h"
 #include "propagation/fermat.h"
-#include "propagation/field.h"
+#include "propagation/object_wave.h"
 
 namespace grimaldi {
 namespace {
@@ -166,7 +166,7 @@ class Grower {
       if (pair.visible == 0) {
         // The strength at the first point that sees the path speaks for the cell; `evaluate` takes every point for
         // itself.
-        path_field(scene_, plan_, transmitter_, interactions, work.geometry, work.field);
+        arrival_field(scene_, plan_, transmitter_, interactions, work.geometry, true, work.field);
         strength = received_power(work.field[0], Polarisation::both);
         if (strength < threshold) return Answer::negligible;
       }

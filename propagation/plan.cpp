@@ -9,6 +9,7 @@
 #include "core/constants.h"
 #include "core/quantity.h"
 #include "propagation/coverage_grid.h"
+#include "propagation/edge_model.h"
 #include "propagation/effort.h"
 #include "propagation/result.h"
 #include "propagation/sequence.h"
@@ -135,6 +136,17 @@ GridLayout grid_layout(const CoverageRequest& coverage, const Scene& scene, std:
 
 std::string point_text(const Vec3& p) { return fmt::format("({:g}, {:g}, {:g})", p.x, p.y, p.z); }
 
+/// Those that are small against some legs within the scene and its ends.
+SmallObjects small_objects(const Plan& plan, const Scene& scene) {
+  if (plan.wavenumber.empty()) return {};
+  double reach = distance(scene.low, scene.high);
+  for (const Transmitter& transmitter : plan.request.transmitters)
+    if (is_finite(transmitter.position)) reach += distance(transmitter.position, 0.5 * (scene.low + scene.high));
+  for (const Receiver& receiver : plan.request.receivers)
+    if (is_finite(receiver.position)) reach += distance(receiver.position, 0.5 * (scene.low + scene.high));
+  return find_small_objects(scene, largest_small_diameter(reach, 2 * pi / plan.wavenumber.front()));
+}
+
 }  // namespace
 
 double memory_limit() { return 0.75 * double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE)); }
@@ -153,13 +165,16 @@ Plan make_plan(const PlanDescription& description, const Scene& scene, const Tra
                                    : 0);
   }
   plan.materials = face_materials(plan, scene, diagnostics);
+  if (description.diffraction && description.diffraction_model == DiffractionModel::automatic)
+    plan.small_objects = small_objects(plan, scene);
   if (description.coverage && std::isfinite(description.coverage->cell_size)) {
     const Effort effort = effort_of(description);
     const double sub_points =
         sub_points_a_side * sub_points_a_side + std::pow(effort.coarse_points, 2) + std::pow(effort.dense_points, 2);
     // Layers, gain, error, bias and delays per transmitter and band; the sub-points; the walk's bookkeeping.
-    const std::size_t bytes = description.transmitters.size() * plan.bands() * (mechanism_count + 5) * sizeof(double) +
-                              static_cast<std::size_t>(sub_points) * sizeof(SubPoint) + 64;
+    const std::size_t bytes =
+        description.transmitters.size() * plan.bands() * (mechanism_count + edge_model_count + 5) * sizeof(double) +
+        static_cast<std::size_t>(sub_points) * sizeof(SubPoint) + 64;
     plan.grid = grid_layout(*description.coverage, scene, bytes, diagnostics);
   }
   for (const Transmitter& transmitter : description.transmitters) {

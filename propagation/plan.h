@@ -9,6 +9,7 @@
 #include "core/contract.h"
 #include "propagation/laws/slab_table.h"
 #include "propagation/plan_file.h"
+#include "propagation/small_object.h"
 #include "scenes/scene.h"
 
 namespace grimaldi {
@@ -50,6 +51,7 @@ struct Plan {
   std::vector<double> attenuation;      ///< of the air, Np/m of amplitude, per band (0 for radio)
   std::vector<FaceMaterial> materials;  ///< per material of the scene
   GridLayout grid;                      ///< empty (nx = 0) without coverage
+  SmallObjects small_objects;           ///< those that may scatter as a whole; none but under `auto`
   std::size_t bands() const { return frequency.size(); }
   std::size_t polarisations() const { return request.kind == WaveKind::radio ? 2 : 1; }
 };

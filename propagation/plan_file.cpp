@@ -154,8 +154,9 @@ void read_propagation_section(ScenarioReader& reader, const ScenarioNode& root, 
   reader.read(*section, "max_reflections", 0, 1000, plan.max_reflections);
   reader.read(*section, "max_diffractions", 0, 1000, plan.max_diffractions);
   using enum DiffractionModel;
-  reader.read<DiffractionModel>(*section, "diffraction", {{"fsd", fsd}, {"fsd-published", fsd_published}, {"utd", utd}},
-                                plan.diffraction_model, {"auto"});
+  reader.read<DiffractionModel>(*section, "diffraction",
+                                {{"fsd", fsd}, {"fsd-published", fsd_published}, {"utd", utd}, {"auto", automatic}},
+                                plan.diffraction_model);
   const ScenarioNode* mechanisms = section->find("mechanisms");
   if (mechanisms == nullptr) return;
   plan.direct = plan.reflection = plan.diffraction = false;

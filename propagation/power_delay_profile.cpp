@@ -13,7 +13,7 @@
 #include "propagation/composite.h"
 #include "propagation/connect.h"
 #include "propagation/fermat.h"
-#include "propagation/field.h"
+#include "propagation/object_wave.h"
 #include "propagation/path_search.h"
 #include "propagation/ties.h"
 
@@ -66,13 +66,18 @@ void add_arrivals(const Scene& scene, const Tracer& tracer, const Plan& plan, co
           arrival.hash = sequences.hash(s);
           arrival.interactions = interactions;
           arrival.field.resize(plan.bands());
-          path_field(scene, plan, transmitter, interactions, arrival.geometry, arrival.field);
+          arrival.object = object_name(scene, plan, transmitter.position, interactions, arrival.geometry);
+          arrival_field(scene, plan, transmitter, interactions, arrival.geometry, true, arrival.field);
           found[block].arrivals.push_back(arrival);
         }
       },
       stop);
   for (Found& block : found) {
-    std::move(block.arrivals.begin(), block.arrivals.end(), std::back_inserter(all));
+    for (Arrival& arrival : block.arrivals) {
+      if (!carries_object(all, arrival.object))
+        arrival_field(scene, plan, transmitter, arrival.interactions, arrival.geometry, false, arrival.field);
+      all.push_back(std::move(arrival));
+    }
     shadow_rays += block.shadow_rays;
   }
 }
@@ -117,7 +122,7 @@ void delay_statistics(const std::vector<Arrival>& arrivals, const Plan& plan, Po
   spread = std::sqrt(std::max(0.0, second / power - mean * mean));
 }
 
-PathStory story(const Scene& scene, const Plan& plan, const Arrival& arrival) {
+PathStory story(const Scene& scene, const Plan& plan, const Transmitter& transmitter, const Arrival& arrival) {
   PathStory path;
   path.delay = arrival.geometry.length / plan.speed;
   for (std::size_t p = 0; p < plan.polarisations(); ++p)
@@ -130,6 +135,7 @@ PathStory story(const Scene& scene, const Plan& plan, const Arrival& arrival) {
   path.arrival_azimuth = azimuth(towards);
   path.arrival_elevation = elevation(towards);
   path.interactions = interaction_tokens(scene, arrival.interactions);
+  path.models = model_words(scene, plan, transmitter.position, arrival.interactions, arrival.geometry);
   path.points.assign(g.points.begin(), g.points.begin() + static_cast<std::ptrdiff_t>(g.count));
   return path;
 }
@@ -159,7 +165,7 @@ void add_transmitter(const Scene& scene, const Plan& plan, std::size_t transmitt
   for (const auto& [power, i] : order) {
     // A path that the receiver's polarisation does not take is none of its paths.
     if (power == 0) break;
-    paths.push_back(story(scene, plan, arrivals[i]));
+    paths.push_back(story(scene, plan, plan.request.transmitters[transmitter], arrivals[i]));
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/contract.h"
 #include "core/vector.h"
+#include "propagation/edge_model.h"
 #include "propagation/plan.h"
 
 namespace grimaldi {
@@ -25,6 +26,7 @@ struct CoverageMap {
   std::vector<double> standard_error;    ///< [T][F][cells]; same unit as path_gain
   std::vector<double> bias;              ///< [T][F][cells]; estimate of the gain not yet found, ≥ 0
   std::vector<double> mechanism_gain;    ///< [T][M][F][cells]
+  std::vector<double> model_gain;        ///< [T][edge_model_count][cells]; diffraction at the first band by its model
   std::vector<double> mean_delay;        ///< [T][F][cells], s; NaN where nothing arrived
   std::vector<double> rms_delay_spread;  ///< [T][F][cells], s; NaN where nothing arrived
   std::vector<double> inside_fraction;   ///< [cells]
@@ -38,6 +40,7 @@ struct PathStory {
   double departure_azimuth = 0, departure_elevation = 0, arrival_azimuth = 0, arrival_elevation = 0;  ///< degrees
   std::string interactions;  ///< tokens R:material, D:edge-number, by blanks
   std::vector<Vec3> points;  ///< transmitter, interaction points, receiver
+  std::string models;        ///< of its edges in order, by blanks: the one of edge_model_names with the largest share
 };
 
 /// Profile at one receiver. T transmitters, F bands, B delay bins.

@@ -405,7 +405,7 @@ void write_paths(Group& group, const Plan& plan, const ReceiverProfile& profile)
   std::vector<double> delay(size, not_a_number), real(size * fields, not_a_number), imaginary = real;
   std::vector<double> out_azimuth = delay, out_elevation = delay, in_azimuth = delay, in_elevation = delay;
   std::vector<double> xyz;
-  std::vector<std::string> interactions(size);
+  std::vector<std::string> interactions(size), models(size);
   xyz.reserve(3 * points);
   for (std::size_t t = 0; t < transmitters; ++t) {
     count[t] = std::int32_t(profile.paths[t].size());
@@ -427,6 +427,7 @@ void write_paths(Group& group, const Plan& plan, const ReceiverProfile& profile)
       in_azimuth[at] = path.arrival_azimuth;
       in_elevation[at] = path.arrival_elevation;
       interactions[at] = path.interactions;
+      models[at] = path.models;
       length[at] = std::int32_t(path.points.size());
       for (const Vec3& point : path.points) xyz.insert(xyz.end(), {point.x, point.y, point.z});
     }
@@ -457,6 +458,8 @@ void write_paths(Group& group, const Plan& plan, const ReceiverProfile& profile)
   group.variable("arrival_elevation", each, in_elevation, {"degree", "elevation at the receiver", true});
   group.variable("path_interactions", each, interactions,
                  {"", "interactions from the transmitter on: R:material, T:material, S:material, D:edge"});
+  group.variable("path_models", each, models,
+                 {"", "model with the largest share in the wave of each edge: utd, fsd, fsd-polygon"});
   group.variable("point_xyz", {"point", "axis"}, xyz, {"m", "points of the paths, transmitter to receiver"});
   group.variable("path_point_start", each, start, {"1", "first point of the path in point_xyz"});
   group.variable("path_point_count", each, length, {"1", "number of points of the path"},

@@ -39,6 +39,7 @@ struct MapFigures {
   double median_standard_error_dB = 0;
   double p95_standard_error_dB = 0;              ///< 95 % of those pairs have less
   double mechanism_power[mechanism_count] = {};  ///< sum over cells and transmitters, first band
+  double model_power[edge_model_count] = {};     ///< the same, of diffraction, by the model that carried it
 };
 
 /// Throws std::logic_error if the map has not the shape of the plan.

@@ -40,7 +40,8 @@ MapFigures map_figures(const Plan& plan, const CoverageMap& map) {
   const std::size_t transmitters = plan.request.transmitters.size();
   const std::size_t bands = plan.bands();
   if (map.path_gain.size() != transmitters * bands * cells || map.standard_error.size() != map.path_gain.size() ||
-      map.mechanism_gain.size() != mechanism_count * map.path_gain.size())
+      map.mechanism_gain.size() != mechanism_count * map.path_gain.size() ||
+      map.model_gain.size() != transmitters * edge_model_count * cells)
     throw std::logic_error("map_figures: the map has not the shape of the plan");
 
   MapFigures figures;
@@ -72,14 +73,21 @@ MapFigures map_figures(const Plan& plan, const CoverageMap& map) {
         const double gain = map.mechanism_gain[(t * mechanism_count + m) * bands * cells + cell];
         if (!std::isnan(gain)) figures.mechanism_power[m] += gain;
       }
+  for (std::size_t t = 0; t < transmitters; ++t)
+    for (std::size_t m = 0; m < edge_model_count; ++m)
+      for (std::size_t cell = 0; cell < cells; ++cell) {
+        const double gain = map.model_gain[(t * edge_model_count + m) * cells + cell];
+        if (!std::isnan(gain)) figures.model_power[m] += gain;
+      }
   return figures;
 }
 
 std::string summary_json(const Plan& plan, const Result& result, const std::vector<std::string>& outputs) {
   const RunFigures& run = result.figures;
   const MapFigures map = result.coverage ? map_figures(plan, *result.coverage) : MapFigures{};
-  nlohmann::ordered_json power, flux, summary;
+  nlohmann::ordered_json power, models, flux, summary;
   for (std::size_t m = 0; m < mechanism_count; ++m) power[mechanism_names[m]] = map.mechanism_power[m];
+  for (std::size_t m = 0; m < edge_model_count; ++m) models[edge_model_names[m]] = map.model_power[m];
   flux["launched"] = run.flux.launched;
   flux["absorbed"] = run.flux.absorbed;
   flux["escaped"] = run.flux.escaped;
@@ -97,6 +105,7 @@ std::string summary_json(const Plan& plan, const Result& result, const std::vect
   summary["shadow_rays"] = run.shadow_rays;
   summary["passes"] = run.passes;
   summary["mechanism_power"] = power;
+  summary["model_power"] = models;
   summary["cells"] = map.cells;
   summary["cells_asked"] = map.asked;
   summary["cells_reached"] = map.reached;

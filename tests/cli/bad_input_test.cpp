@@ -358,12 +358,11 @@ TEST_F(BadInput, WhatThisVersionLacks) {
     refused({verb}, {verb, lacks, "known: coverage"});
     refused({verb, "city.toml", "-o", "x.out"}, {verb, lacks});
   }
-  refused(city({"--diffraction", "auto"}), {"--diffraction auto", lacks, "known: fsd"});
   refused(city({"--mechanisms", "direct,transmission"}), {"--mechanisms", lacks});
   refused(city({"--mechanisms", "scattering"}), {"--mechanisms scattering", lacks});
   for (const char* set :
-       {"scene.terrain=dem.tif", "material.brick.scattering=0.1",
-        "material.brick.flow_resistivity=200kPa.s/m2", "receiver.0.location={latitude=48,longitude=11}"})
+       {"scene.terrain=dem.tif", "material.brick.scattering=0.1", "material.brick.flow_resistivity=200kPa.s/m2",
+        "receiver.0.location={latitude=48,longitude=11}"})
     refused(city({"--set", set}), {std::string("--set ") + set, lacks});
   for (const char* file : {"town.osm", "town.osm.pbf", "town.geojson", "town.shp", "town.gpkg"}) {
     refused(of_scene(file), {std::string("--scene ") + file, lacks, ".xml"});

@@ -207,6 +207,7 @@ struct MadeUp {
       map.inside_fraction.push_back(std::isnan(gain) ? 1 : 0);
     }
     map.mechanism_gain.assign(mechanism_count * gains.size(), 0.0);
+    map.model_gain.assign(edge_model_count * gains.size(), 0.0);
     for (std::size_t i = 0; i < gains.size(); ++i) map.mechanism_gain[3 * gains.size() + i] = gains[i];
   }
   Comparison compare() const { return compare_results(scene, tracer, plan, fsd, utd); }

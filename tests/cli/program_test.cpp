@@ -80,10 +80,26 @@ TEST_F(Program, JsonIsTheSummaryAndNothingElse) {
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.out, contents("street.out/summary.json"));
   const auto summary = nlohmann::json::parse(outcome.out);
-  for (const char* key :
-       {"wall_seconds", "cpu_seconds", "trace_seconds", "threads", "peak_memory_bytes", "rays", "rays_per_second",
-        "segments", "segments_per_second", "shadow_rays", "passes", "mechanism_power", "cells", "cells_asked",
-        "cells_reached", "median_standard_error_dB", "flux", "warnings", "outputs"})
+  for (const char* key : {"wall_seconds",
+                          "cpu_seconds",
+                          "trace_seconds",
+                          "threads",
+                          "peak_memory_bytes",
+                          "rays",
+                          "rays_per_second",
+                          "segments",
+                          "segments_per_second",
+                          "shadow_rays",
+                          "passes",
+                          "mechanism_power",
+                          "model_power",
+                          "cells",
+                          "cells_asked",
+                          "cells_reached",
+                          "median_standard_error_dB",
+                          "flux",
+                          "warnings",
+                          "outputs"})
     EXPECT_TRUE(summary.contains(key)) << key;
   EXPECT_EQ(summary["threads"], 1);
   EXPECT_EQ(summary["outputs"].size(), 3u);

@@ -317,7 +317,7 @@ TEST_F(PlanFile, FaultyOptionsAreNamedAsTheUserWroteThem) {
       {{"--seed x", "budget.seed", "x"}, "not a number", ""},
       {{"--seed 1.5", "budget.seed", "1.5"}, "not a whole number", ""},
       {{"--scene nowhere.xml", "scene.file", "nowhere.xml"}, "no such file", "nowhere.xml"},
-      {{"--diffraction auto", "propagation.diffraction", "auto"}, "not in this version", "fsd"},
+      {{"--diffraction uto", "propagation.diffraction", "uto"}, "unknown value", "utd"},
       {{"--mechanisms direct,scattering", "propagation.mechanisms", "[direct,scattering]"}, "not in this version", ""},
       {{"--mechanisms ", "propagation.mechanisms", "[]"}, "empty list", ""},
   };
@@ -421,7 +421,6 @@ TEST_F(PlanFile, MissingAndContradictingKeys) {
 
 TEST_F(PlanFile, WhatThisVersionLacksIsSaid) {
   const std::string m = minimal, lacks = "not in this version";
-  expect_one(m + "[propagation]\ndiffraction = 'auto'\n", 8, "propagation.diffraction", lacks);
   expect_one(m + "[propagation]\nmechanisms = ['transmission']\n", 8, "propagation.mechanisms.0", lacks);
   expect_one(m + "[[receiver]]\nlocation = { latitude = 1, longitude = 2, height = 3 }\n", 8, "receiver.0.location",
              lacks);

@@ -97,6 +97,7 @@ Case small_case(WaveKind kind = WaveKind::radio) {
   map.standard_error = ramp(T * F * cells, 200);
   map.bias = ramp(T * F * cells, 300);
   map.mechanism_gain = ramp(T * mechanism_count * F * cells, 1000);
+  map.model_gain = ramp(T * edge_model_count * cells, 700);
   map.mean_delay = ramp(T * F * cells, 400);
   map.rms_delay_spread = ramp(T * F * cells, 500);
   map.inside_fraction = {1, 0, 0.25, 0, 0, 0, 0, 0};
@@ -127,9 +128,9 @@ Case small_case(WaveKind kind = WaveKind::radio) {
     return values;
   };
   corner.paths = {
-      {{1e-7, amplitudes(1), 10, 20, 30, 40, "", {{0, 1, 2}, {3, 4, 5}}},
-       {1.1e-7, amplitudes(100), 11, 21, 31, 41, "R:concrete D:17", {{6, 7, 8}, {9, 10, 11}, {12, 13, 14}}}},
-      {{2e-7, amplitudes(200), 12, 22, 32, 42, "D:3", {{15, 16, 17}, {18, 19, 20}}}}};
+      {{1e-7, amplitudes(1), 10, 20, 30, 40, "", {{0, 1, 2}, {3, 4, 5}}, ""},
+       {1.1e-7, amplitudes(100), 11, 21, 31, 41, "R:concrete D:17", {{6, 7, 8}, {9, 10, 11}, {12, 13, 14}}, "utd"}},
+      {{2e-7, amplitudes(200), 12, 22, 32, 42, "D:3", {{15, 16, 17}, {18, 19, 20}}, "fsd-polygon"}}};
   ReceiverProfile dark;
   dark.name = "dark.2";
   dark.total = dark.total_coherent = std::vector<double>(T * F, 0.0);
@@ -278,6 +279,7 @@ TEST_F(ResultFile, ProfileIsReadByBothEngines) {
   holds("arrival_azimuth", each, {30.0, 31.0, 32.0, nullptr}, "degree");
   holds("arrival_elevation", each, {40.0, 41.0, 42.0, nullptr}, "degree");
   holds("path_interactions", each, {"", "R:concrete D:17", "D:3", ""}, "");
+  holds("path_models", each, {"", "utd", "fsd-polygon", ""}, "");
   std::vector<double> real;
   for (const double base : {1.0, 100.0, 200.0, nan_value})
     for (const double value : ramp(6, base)) real.push_back(value);
@@ -292,7 +294,7 @@ TEST_F(ResultFile, ProfileIsReadByBothEngines) {
   holds("path_point_count", each, {2, 3, 2, 0}, "1");
   EXPECT_EQ(v["path_point_count"]["kind"], "i");
   EXPECT_EQ(v["path_point_count"]["attributes"]["sample_dimension"], "point");
-  EXPECT_EQ(v.size(), 22u);  // those above, transmitter and frequency: nothing else lies in the group
+  EXPECT_EQ(v.size(), 23u);  // those above, transmitter and frequency: nothing else lies in the group
 }
 
 TEST_F(ResultFile, ReceiverWithoutPathsIsReadable) {
@@ -457,6 +459,9 @@ TEST_F(ResultFile, WrongShapeIsOurFault) {
   c = small_case();
   c.result.coverage->mechanism_gain.pop_back();
   EXPECT_THROW(map_figures(c.plan, *c.result.coverage), std::logic_error);
+  c = small_case();
+  c.result.coverage->model_gain.pop_back();
+  EXPECT_THROW(map_figures(c.plan, *c.result.coverage), std::logic_error);
 }
 
 TEST_F(ResultFile, TextIsWrittenWhole) {
@@ -484,6 +489,7 @@ Case figures_case() {
   std::copy(std::begin(direct), std::end(direct), layer(Mechanism::direct));
   std::copy(std::begin(interference), std::end(interference), layer(Mechanism::interference));
   std::copy(std::begin(diffraction), std::end(diffraction), layer(Mechanism::diffraction));
+  map.model_gain = {nan_value, 0, 0, 0, 1.5, nan_value, 0, 0, 0, 0.25, nan_value, 0, 0, 0, 0.25, nan_value, 0, 0, 0, 0};
   c.result.coverage = map;
   return c;
 }
@@ -498,6 +504,10 @@ TEST(MapFigures, CountCellsAndAddLayers) {
   EXPECT_NEAR(figures.median_standard_error_dB, 10 * std::log10(2.0), 1e-12);
   EXPECT_EQ(figures.mechanism_power[std::size_t(Mechanism::direct)], 5.5);
   EXPECT_EQ(figures.mechanism_power[std::size_t(Mechanism::diffraction)], 2.0);
+  EXPECT_EQ(figures.model_power[std::size_t(EdgeModel::utd)], 1.5);
+  EXPECT_EQ(figures.model_power[std::size_t(EdgeModel::fsd)], 0.25);
+  EXPECT_EQ(figures.model_power[std::size_t(EdgeModel::polygon)], 0.25);
+  EXPECT_EQ(figures.model_power[std::size_t(EdgeModel::published)], 0);
   EXPECT_EQ(figures.mechanism_power[std::size_t(Mechanism::interference)], -0.5);
   EXPECT_EQ(figures.mechanism_power[std::size_t(Mechanism::reflection)], 0.0);
 }
@@ -521,6 +531,7 @@ TEST(Summary, HasTheKeysOfTheContract) {
                            "flux",
                            "mechanism_power",
                            "median_standard_error_dB",
+                           "model_power",
                            "outputs",
                            "p95_standard_error_dB",
                            "passes",
@@ -542,6 +553,7 @@ TEST(Summary, HasTheKeysOfTheContract) {
   EXPECT_EQ(summary["segments_per_second"], 4e5);  // 4e6 in 10 s
   EXPECT_EQ(summary["peak_memory_bytes"], 5'000'000'000u);
   EXPECT_EQ(summary["cells_reached"], 3);
+  EXPECT_EQ(summary["model_power"], json({{"utd", 1.5}, {"fsd", 0.25}, {"fsd-polygon", 0.25}, {"fsd-published", 0.0}}));
   EXPECT_EQ(summary["mechanism_power"], json({{"direct", 5.5},
                                               {"reflection", 0.0},
                                               {"transmission", 0.0},

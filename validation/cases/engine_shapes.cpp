@@ -50,4 +50,20 @@ SceneDescription upright_plate(double wide, double high) {
   return scene;
 }
 
+SceneDescription closed_box(const Vec3& low, const Vec3& high) {
+  SceneDescription scene;
+  scene.name = "box";
+  MeshDescription mesh{"box", scene.name, "metal", {}, {}, {}};
+  const Vec3 size = high - low;
+  const std::vector<double> x{0, size.x}, y{0, size.y}, z{0, size.z};
+  append_sheet(y, x, low, north, east, {}, mesh);
+  append_sheet(z, y, low, up, north, {}, mesh);
+  append_sheet(x, z, low, east, up, {}, mesh);
+  append_sheet(x, y, {low.x, low.y, high.z}, east, north, {}, mesh);
+  append_sheet(y, z, {high.x, low.y, low.z}, north, up, {}, mesh);
+  append_sheet(z, x, {low.x, high.y, low.z}, up, east, {}, mesh);
+  scene.meshes.push_back(std::move(mesh));
+  return scene;
+}
+
 }  // namespace grimaldi

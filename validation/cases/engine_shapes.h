@@ -26,4 +26,7 @@ SceneDescription deep_blocks(const std::vector<DeepBlock>& blocks, double depth,
 /// A metal plate in the plane x = 0, |y| ≤ wide/2, |z| ≤ high/2, normal +x. m.
 SceneDescription upright_plate(double wide, double high);
 
+/// A closed metal box, normals outward. m.
+SceneDescription closed_box(const Vec3& low, const Vec3& high);
+
 }  // namespace grimaldi

@@ -27,6 +27,8 @@ Cases engine_corner_cases();
 Cases screen_cases();
 /// Flat roofs, one and two behind each other, in the engine against boundary elements.
 Cases roof_cases();
+/// The model `auto` in the engine: small plates and boxes as wholes against integrals, and walks through its fades.
+Cases auto_cases();
 /// Walks in the engine over boundaries, ends and corners: no jump of the level.
 Cases walk_cases();
 /// The engine with transmitter and receiver exchanged.

@@ -1,0 +1,47 @@
+#pragma once
+// Objects that can scatter as a whole: flat sheets and convex solids that stand free.
+
+#include <cstdint>
+#include <vector>
+
+#include "core/vector.h"
+#include "scenes/scene.h"
+
+namespace grimaldi {
+
+struct SmallObject {
+  Vec3 centre;      ///< of its bounding box
+  double diameter;  ///< of the sphere about it, m
+  double area;      ///< of its triangles, m²
+  bool sheet;       ///< flat, open to both sides; else a closed convex solid
+  std::vector<std::uint32_t> triangles;
+};
+
+struct SmallObjects {
+  std::vector<SmallObject> objects;
+  std::vector<std::uint32_t> of_wedge;  ///< object of each wedge of the scene, or no_index; empty: none was sought
+
+  /// Object of an edge, or nullptr.
+  const SmallObject* at(std::uint32_t wedge) const {
+    return of_wedge.empty() || of_wedge[wedge] == no_index ? nullptr : &objects[of_wedge[wedge]];
+  }
+};
+
+/// All objects of at most 256 triangles and of diameter `largest` (what is small is a matter of the legs).
+/// Method: triangles that share a welded vertex are one component. It is an object if it is flat (all vertices within
+/// 1 mm of one plane) with a rim of free rims alone, holes in it allowed, or closed (two triangles at each edge),
+/// convex (no vertex more than 1 mm before a triangle's plane) and with all its sharp edges free: the lengths of its
+/// wedges add up to those of its edges above 185°, within 1 %; and no triangle
+/// of another component has a bounding box within 1 cm of its own. So what stands on the ground or touches a wall is
+/// none, nor is a sheet with an artificial rim. Inputs: a scene as build_scene leaves it; m. Returns: in the order of
+/// their first triangles. Error: none. Throws: nothing.
+SmallObjects find_small_objects(const Scene& scene, double largest);
+
+/// True if the straight way from a to b goes through a triangle of the object. Inputs: m. Error: that of rounding at
+/// the rims.
+bool crosses(const Scene& scene, const SmallObject& object, const Vec3& a, const Vec3& b);
+
+/// The same for the object's triangles of one patch; patch = no_index: of any.
+bool crosses(const Scene& scene, const SmallObject& object, std::uint32_t patch, const Vec3& a, const Vec3& b);
+
+}  // namespace grimaldi
