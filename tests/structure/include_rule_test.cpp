@@ -51,18 +51,12 @@ const std::set<std::string> references = {
     "quadrature",          "bessel",     "fresnel_integral", "aperture",    "aperture_shape", "aperture_quadrature",
     "rayleigh_sommerfeld", "fraunhofer", "half_plane",       "wedge_field", "wedge_contour",  "wedge_series",
     "knife_edge",          "hankel",     "boundary_elements"};
-const std::set<std::string> vocabulary = {"core/quantity.h",
-                                          "core/vector.h",
-                                          "core/constants.h",
-                                          "core/contract.h",
-                                          "validation/bessel.h",
-                                          "validation/hankel.h",
-                                          "validation/quadrature.h",
-                                          "validation/fresnel_integral.h",
-                                          "validation/aperture.h",
-                                          "validation/aperture_quadrature.h",
-                                          "validation/wedge_field.h",
-                                          "validation/wedge_contour.h"};
+const std::set<std::string> vocabulary = {"core/quantity.h",          "core/vector.h",
+                                          "core/constants.h",         "core/contract.h",
+                                          "validation/bessel.h",      "validation/hankel.h",
+                                          "validation/quadrature.h",  "validation/fresnel_integral.h",
+                                          "validation/aperture.h",    "validation/aperture_quadrature.h",
+                                          "validation/wedge_field.h", "validation/wedge_contour.h"};
 
 /// A package and where its headers may be included. Only sources count as doors: a header would leak the package.
 struct Door {
