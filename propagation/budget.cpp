@@ -26,16 +26,19 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 class Deadline {
  public:
   Deadline(std::optional<Clock::time_point> at, const std::atomic<bool>* asked)
-      : watch_([this, at, asked](const std::stop_token& over) {
+      : flag_(come(at, asked)), watch_([this, at, asked](const std::stop_token& over) {
           while (!over.stop_requested() && !flag_) {
-            if ((asked != nullptr && *asked) || (at && Clock::now() > *at)) flag_ = true;
             std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            if (come(at, asked)) flag_ = true;
           }
         }) {}
   const std::atomic<bool>* flag() const { return &flag_; }
 
  private:
-  std::atomic<bool> flag_ = false;
+  static bool come(const std::optional<Clock::time_point>& at, const std::atomic<bool>* asked) {
+    return (asked != nullptr && *asked) || (at && Clock::now() > *at);
+  }
+  std::atomic<bool> flag_;
   std::jthread watch_;
 };
 

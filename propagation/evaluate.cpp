@@ -73,11 +73,10 @@ class CellEvaluator {
     const Transmitter& transmitter = plan_.request.transmitters[transmitter_];
     // Delays are summed about the straight line's, so that their variance keeps its digits.
     const double reference_delay = distance(transmitter.position, grid_.layout.centre(cell)) / plan_.speed;
-    std::vector<UnfoldedSequence>& unfolded = unfolded_;
-    unfolded.clear();
+    unfolded_.clear();
     sequences_.clear();
     for (const Pair& pair : pairs) {
-      unfolded.emplace_back(scene_, transmitter.position, discovered_.sequences[pair.sequence]);
+      unfolded_.emplace_back(scene_, transmitter.position, discovered_.sequences[pair.sequence]);
       sequences_.push_back(pair.sequence);
     }
     at_point_.resize(plan_.bands());

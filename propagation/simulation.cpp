@@ -91,9 +91,10 @@ Result simulate(const Scene& scene, const Tracer& tracer, const Plan& asked, con
           const StageClock stage(figures.discover_seconds);
           Search wanted;
           if (twice) (search == 0 ? wanted.most_edges : wanted.fewest_edges) = search + 1;
-          const double negligible_share = effort_of(plan.request).negligible_share;
-          if (search == 1)
-            for (const double power : grown.known) wanted.negligible.push_back(negligible_share * power);
+          if (search == 1) {
+            const double share = effort_of(plan.request).negligible_share;
+            for (const double power : grown.known) wanted.negligible.push_back(share * power);
+          }
           auto found = discover(scene, tracer, plan, t, wanted, report("discover", from, from + 0.5 * size), stop);
           if (search == 0)
             discovered = std::move(found);
