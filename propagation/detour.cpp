@@ -82,7 +82,7 @@ class Scout {
   void lead_around(const BlockedPath& path, std::vector<Proposal>& out) {
     const auto interactions = discovered_.sequences[path.sequence];
     const Vec3 target = grid_.layout.centre(path.cell) + grid_.of(path.cell)[path.point].offset;
-    UnfoldedSequence parent(scene_, source_, interactions);
+    UnfoldedSequence parent(scene_, source_, interactions, &plan_.small_objects);
     if (!parent.solve_in_planes(target, wavelength_, geometry_)) return;
     const int edges_now = static_cast<int>(count_edges(interactions));
     gather_ways(
@@ -116,7 +116,7 @@ class Scout {
       along[edges_before] = way.along;
       if (added == 2) along[edges_before + 1] = way.along_second;
       std::copy_n(known_along.begin() + edges_before, edges_after, along.begin() + edges_before + added);
-      UnfoldedSequence unfolded(scene_, source_, child);
+      UnfoldedSequence unfolded(scene_, source_, child, &plan_.small_objects);
       if (edges > 1) unfolded.begin_at({along.data(), edges});
       if (!unfolded.solve(target, wavelength_, solved_)) continue;
       const double bound = power_bound(scene_, plan_, child, solved_);

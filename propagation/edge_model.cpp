@@ -28,19 +28,27 @@ double utd_share(DiffractionModel model, double length, const EdgePassage& passa
   return fade(length / std::max(edge_over_zone * zone, wavelength));
 }
 
-double polygon_share(double diameter, bool sheet, double s_in, double s_out, double wavelength) {
+double polygon_share(double diameter, bool flat, double s_in, double s_out, double wavelength) {
   const double zone2 = wavelength * s_in * s_out / (s_in + s_out);
-  const double far = 2 * std::sqrt((sheet ? far_sheet : far_solid) * zone2) / diameter;
+  const double far = 2 * std::sqrt((flat ? far_sheet : far_solid) * zone2) / diameter;
   return fade(std::min(far, std::min(s_in, s_out) / (leg_over_diameter * diameter)));
 }
 
-double object_wave_bound(const SmallObjects& objects, const EdgePassage& first, double s_out, double wavenumber) {
+bool shines_through(const SmallObjects& objects, std::uint32_t wedge, double s_in, double s_out, double wavelength) {
+  const SmallObject* object = objects.at(wedge);
+  if (object == nullptr || object->kind != ObjectKind::opening) return false;
+  const double d = object->diameter;
+  return polygon_share(d, true, s_in + d, s_out + d, wavelength) > 0;
+}
+
+double object_wave_bound(const SmallObjects& objects, const EdgePassage& first, double beyond, double s_out,
+                         double wavenumber) {
   const SmallObject* object = objects.at(first.wedge);
   if (object == nullptr) return 0;
   const double d = object->diameter;
   // A share grows with the legs.
-  if (polygon_share(d, object->sheet, first.s_in + d, s_out + d, 2 * pi / wavenumber) == 0) return 0;
-  const double in = std::max(d, first.s_in - 0.5 * d), out = std::max(d, s_out - 0.5 * d);
+  if (polygon_share(d, object->flat(), first.s_in + beyond + d, s_out + beyond + d, 2 * pi / wavenumber) == 0) return 0;
+  const double in = std::max(d, first.s_in - beyond - 0.5 * d), out = std::max(d, s_out - beyond - 0.5 * d);
   return 2 / (in + out) + wavenumber / pi * object->area / (in * out);
 }
 

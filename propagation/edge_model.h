@@ -28,21 +28,26 @@ inline constexpr const char* edge_model_names[edge_model_count] = {"utd", "fsd",
 double utd_share(DiffractionModel model, double length, const EdgePassage& passage, double wavelength);
 
 /// Share of the whole-polygon form in the wave of an object of diameter D (that of a sphere about it).
-/// Formula: with N = (D/2)²/(λL), L = s s'/(s+s'), x = min(√(N₀/N), ½ min(s, s')/D), N₀ = 0.1 of a sheet, 0.5 of a
-/// solid: 1 from x = 1, 0 up to x = ½, the same fade between. So 1 up to N = N₀, 0 from N = 4 N₀. Source: validity map:
-/// the polygon form is a far field, 0.1 dB up to N = 0.1 for any shape (0.4 dB at 3 λ) and 2 dB and more at N = 1,
-/// where right-angled edges hold to 0.6 dB; other corners fail by 3 to 7 dB below N = 0.1. Of a solid most edges
-/// are hidden from one end: alone they err by 9 to 13 dB behind a box at N = 0.5, the whole by 1 dB there and by 0.45
-/// dB from N = 0.36 down (case auto/fade-of-a-box). The second bound: directions and distances are taken from the
-/// object's middle. Inputs: diameter D, m, > 0; sheet or solid; legs from the middle of the object, m; wavelength λ, m.
-/// Returns: 0 … 1; the same with the legs exchanged. Error: none, it is a choice. Throws: nothing.
-double polygon_share(double diameter, bool sheet, double s_in, double s_out, double wavelength);
+/// Formula: with N = (D/2)²/(λL), L = s s'/(s+s'), x = min(√(N₀/N), ½ min(s, s')/D), N₀ = 0.1 of a sheet or an opening,
+/// 0.5 of a solid: 1 from x = 1, 0 up to x = ½, the same fade between. So 1 up to N = N₀, 0 from N = 4 N₀. Source:
+/// validity map: the polygon form is a far field, 0.1 dB up to N = 0.1 for any shape (0.4 dB at 3 λ) and 2 dB and more
+/// at N = 1, where right-angled edges hold to 0.6 dB; other corners fail by 3 to 7 dB below N = 0.1. Of a solid most
+/// edges are hidden from one end: alone they err by 9 to 13 dB behind a box at N = 0.5, the whole by 1 dB there and by
+/// 0.45 dB from N = 0.36 down (case auto/fade-of-a-box). The second bound: directions and distances are taken from the
+/// object's middle. Inputs: diameter D, m, > 0; flat or a solid; legs from the middle of the object, m; wavelength λ,
+/// m. Returns: 0 … 1; the same with the legs exchanged. Error: none, it is a choice. Throws: nothing.
+double polygon_share(double diameter, bool flat, double s_in, double s_out, double wavelength);
+
+/// True if the edge is of an opening that may have a share for these legs from a point of the edge: its wave goes out
+/// in all directions, however far beyond the edge's ends the diffraction point then lies.
+bool shines_through(const SmallObjects& objects, std::uint32_t wedge, double s_in, double s_out, double wavelength);
 
 /// A bound on the wave of the object of a path's first edge, `s_out` behind its last, over a source of unit strength,
 /// 1/m; 0 if there is none or its share is 0. Formula: 2/(s'+s) for the direct and a reflected wave that it makes up
-/// for, and (k/2π) 2A/(s's) with legs from its middle, at least s_in − D/2 and D (where the share begins), A the area
-/// of its triangles.
-double object_wave_bound(const SmallObjects& objects, const EdgePassage& first, double s_out, double wavenumber);
+/// for, and (k/2π) 2A/(s's) with legs from its middle, at least s_in − D/2 − b and D (where the share begins), b how
+/// far beyond the edge's end the diffraction point lies, A the area of its triangles.
+double object_wave_bound(const SmallObjects& objects, const EdgePassage& first, double beyond, double s_out,
+                         double wavenumber);
 
 /// The largest diameter of which polygon_share is not 0 for some legs of together at most `reach`, m.
 double largest_small_diameter(double reach, double wavelength);

@@ -76,7 +76,7 @@ class CellEvaluator {
     unfolded_.clear();
     sequences_.clear();
     for (const Pair& pair : pairs) {
-      unfolded_.emplace_back(scene_, transmitter.position, discovered_.sequences[pair.sequence]);
+      unfolded_.emplace_back(scene_, transmitter.position, discovered_.sequences[pair.sequence], &plan_.small_objects);
       sequences_.push_back(pair.sequence);
     }
     at_point_.resize(plan_.bands());

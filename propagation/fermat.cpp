@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/constants.h"
+#include "propagation/edge_model.h"
 
 namespace grimaldi {
 namespace {
@@ -35,8 +36,9 @@ Vec3 mirrored(const Vec3& point, const Patch& patch) {
   return point - 2 * (dot(point, patch.normal) - patch.offset) * patch.normal;
 }
 
-UnfoldedSequence::UnfoldedSequence(const Scene& scene, const Vec3& source, std::span<const Interaction> interactions)
-    : scene_(&scene), interactions_(interactions), source_(source), image_(source) {
+UnfoldedSequence::UnfoldedSequence(const Scene& scene, const Vec3& source, std::span<const Interaction> interactions,
+                                   const SmallObjects* objects)
+    : scene_(&scene), objects_(objects), interactions_(interactions), source_(source), image_(source) {
   for (std::size_t i = 0; i < interactions.size(); ++i) {
     const Interaction here = interactions[i];
     if (i > 0 && interactions[i - 1] == here) possible_ = false;
@@ -262,8 +264,13 @@ bool UnfoldedSequence::passage(std::size_t i, const Vec3& before, double along, 
   const Vec3 ends[2] = {edge.start, edge.point(wedge.length)};
   out.detour_start = std::max(0.0, distance(before, ends[0]) + distance(ends[0], after) - over);
   out.detour_end = std::max(0.0, distance(before, ends[1]) + distance(ends[1], after) - over);
-  if (!out.inside && 2 * std::sqrt((along < 0 ? out.detour_start : out.detour_end) / wavelength) >= end_parameter_limit)
-    return false;
+  if (!out.inside &&
+      2 * std::sqrt((along < 0 ? out.detour_start : out.detour_end) / wavelength) >= end_parameter_limit) {
+    const Vec3& end = ends[along < 0 ? 0 : 1];
+    if (objects_ == nullptr || edge_count_ != 1 ||
+        !shines_through(*objects_, edge.wedge, distance(before, end), distance(end, after), wavelength))
+      return false;
+  }
   for (auto [way, phi] : {std::pair{&in, &out.phi_in}, std::pair{&away, &out.phi_out}}) {
     *phi = std::atan2(dot(*way, edge.normal0), dot(*way, edge.along0));
     if (*phi < -rounding) *phi += 2 * pi;

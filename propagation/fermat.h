@@ -12,6 +12,8 @@
 
 namespace grimaldi {
 
+struct SmallObjects;
+
 /// How a path passes one edge, in lengths and angles that mirrors do not change.
 struct EdgePassage {
   std::uint32_t wedge = no_index;
@@ -37,7 +39,9 @@ struct PathGeometry {
 /// is a straight line, or one that breaks at edges only.
 class UnfoldedSequence {
  public:
-  UnfoldedSequence(const Scene& scene, const Vec3& source, std::span<const Interaction> interactions);
+  /// `objects`: openings among them send their waves everywhere (shines_through); they stay alive as long as this.
+  UnfoldedSequence(const Scene& scene, const Vec3& source, std::span<const Interaction> interactions,
+                   const SmallObjects* objects = nullptr);
 
   /// False for a sequence that no path can have: an edge next to a face of its own, one interaction twice in a row, too
   /// many edges.
@@ -45,10 +49,11 @@ class UnfoldedSequence {
 
   /// Points, lengths and angles of the path to `receiver`. False if there is none: a mirror's point lies behind it or
   /// outside its bounding box, an azimuth inside the solid, a diffraction point so far beyond the edge's end that v_V ≥
-  /// 3 there at `wavelength` (m), or two vertices of the path nearer than 1 µm. Visibility is not asked here. Method:
-  /// one edge in closed form (the two half-planes through the edge unfolded); more by Newton on the length, which is
-  /// convex, until the step is below 1e-12 of the length. Newton starts from the last solution of this object, so that
-  /// neighbouring receivers cost one or two steps; the solution itself is the same to 1e-9 m.
+  /// 3 there at `wavelength` (m; but of the one edge of an opening that shines through), or two vertices of the path
+  /// nearer than 1 µm. Visibility is not asked here. Method: one edge in closed form (the two half-planes through the
+  /// edge unfolded); more by Newton on the length, which is convex, until the step is below 1e-12 of the length. Newton
+  /// starts from the last solution of this object, so that neighbouring receivers cost one or two steps; the solution
+  /// itself is the same to 1e-9 m.
   bool solve(const Vec3& receiver, double wavelength, PathGeometry& geometry) {
     return solve(receiver, wavelength, geometry, false);
   }
@@ -77,6 +82,7 @@ class UnfoldedSequence {
   bool mirror_points(std::size_t first, std::size_t last, PathGeometry& geometry, bool in_planes) const;
 
   const Scene* scene_;
+  const SmallObjects* objects_;
   std::span<const Interaction> interactions_;
   Vec3 source_, image_;
   std::array<UnfoldedEdge, max_edges> edges_;

@@ -150,9 +150,12 @@ double power_bound(const Scene& scene, const Plan& plan, std::span<const Interac
     if (i > 0 && i + 1 < geometry.edge_count) sum *= 2 * share;
     amplitude *= sum;
   }
-  if (geometry.edge_count <= 2)
-    amplitude += object_wave_bound(plan.small_objects, geometry.edges[0], geometry.edges[geometry.edge_count - 1].s_out,
-                                   wavenumber);
+  if (geometry.edge_count <= 2) {
+    const EdgePassage& first = geometry.edges[0];
+    const double beyond = std::max({0.0, -first.along, first.along - scene.wedges.wedges[first.wedge].length});
+    amplitude +=
+        object_wave_bound(plan.small_objects, first, beyond, geometry.edges[geometry.edge_count - 1].s_out, wavenumber);
+  }
   return unit * amplitude * amplitude;
 }
 

@@ -50,7 +50,7 @@ class Grower {
   /// One sequence from its seeds [first, last).
   void grow(std::uint32_t sequence, const Seed* first, const Seed* last, Workspace& work, BlockPairs& out) const {
     const auto interactions = discovered_.sequences[sequence];
-    UnfoldedSequence unfolded(scene_, transmitter_.position, interactions);
+    UnfoldedSequence unfolded(scene_, transmitter_.position, interactions, &plan_.small_objects);
     if (!unfolded.possible()) return;
     if (work.visited.empty()) work.visited.assign(grid_.layout.size(), 0);
     ++work.growth;
@@ -92,7 +92,7 @@ class Grower {
 
   /// Cells, one in each tile of 3 × 3, that a sequence of faces alone would reach if nothing stood in the way.
   void cells_of_its_mirrors(std::uint32_t sequence, Workspace& work, std::vector<Seed>& seeds) const {
-    UnfoldedSequence unfolded(scene_, transmitter_.position, discovered_.sequences[sequence]);
+    UnfoldedSequence unfolded(scene_, transmitter_.position, discovered_.sequences[sequence], &plan_.small_objects);
     for (std::size_t y = 1; y < grid_.layout.ny; y += 3)
       for (std::size_t x = 1; x < grid_.layout.nx; x += 3) {
         const std::size_t cell = y * grid_.layout.nx + x;

@@ -45,7 +45,7 @@ void add_near_edges(const Scene& scene, const Tracer& tracer, const Plan& plan, 
         static_cast<int>(count_edges(parent)) >= most_edges(plan.request))
       continue;
     PathGeometry geometry, child_geometry;
-    if (!UnfoldedSequence(scene, source, parent).solve(point, wavelength, geometry)) continue;
+    if (!UnfoldedSequence(scene, source, parent, &plan.small_objects).solve(point, wavelength, geometry)) continue;
     for (std::size_t leg = 0; leg + 1 < geometry.count; ++leg) {
       const Vec3 &a = geometry.points[leg], &b = geometry.points[leg + 1];
       const double straight = distance(a, b);
@@ -55,7 +55,7 @@ void add_near_edges(const Scene& scene, const Tracer& tracer, const Plan& plan, 
         child.insert(child.begin() + static_cast<std::ptrdiff_t>(leg), edge_interaction(w));
         const SequenceHash hash = hash_of(child);
         if (sequences.find(hash) != SequenceTable::no_sequence) continue;
-        UnfoldedSequence unfolded(scene, source, child);
+        UnfoldedSequence unfolded(scene, source, child, &plan.small_objects);
         if (!unfolded.solve(point, wavelength, child_geometry) ||
             blocked_leg(scene, tracer, child, child_geometry, shadow_rays))
           continue;
@@ -95,7 +95,7 @@ std::vector<std::uint32_t> add_second_edges(const Scene& scene, const Tracer& tr
         const SequenceHash hash = hash_of(child);
         if (sequences.find(hash) != SequenceTable::no_sequence) continue;
         PathGeometry geometry;
-        UnfoldedSequence unfolded(scene, source, child);
+        UnfoldedSequence unfolded(scene, source, child, &plan.small_objects);
         if (!unfolded.solve(point, wavelength, geometry) || power_bound(scene, plan, child, geometry) < least ||
             blocked_leg(scene, tracer, child, geometry, shadow_rays))
           continue;

@@ -26,7 +26,7 @@ struct ObjectPath {
   Vec3 in, out;           ///< unit directions
   double s_in = 0, s_out = 0;
   double share(double wavelength) const {
-    return polygon_share(object->diameter, object->sheet, s_in, s_out, wavelength);
+    return polygon_share(object->diameter, object->flat(), s_in, s_out, wavelength);
   }
 };
 
@@ -86,8 +86,7 @@ Complex surface_integral(const ObjectPath& path, const std::array<Vec3, 3>& corn
 }
 
 /// What the object scatters towards the receiver, at one band, in the direction `out`.
-ComplexVec3 scattered(const Scene& scene, const Plan& plan, const ObjectPath& path, const ComplexVec3& incident,
-                      std::size_t band) {
+ComplexVec3 scattered(const Plan& plan, const ObjectPath& path, const ComplexVec3& incident, std::size_t band) {
   const bool radio = plan.request.kind == WaveKind::radio;
   const double wavenumber = plan.wavenumber[band];
   Complex black = 0;
@@ -95,18 +94,16 @@ ComplexVec3 scattered(const Scene& scene, const Plan& plan, const ObjectPath& pa
   const auto add = [&](const ComplexVec3& wave, Complex factor) {
     sum.x += factor * wave.x, sum.y += factor * wave.y, sum.z += factor * wave.z;
   };
-  for (const std::uint32_t t : path.object->triangles) {
-    const auto& [a, b, c] = scene.triangles[t];
-    const std::array<Vec3, 3> corner{scene.vertices[a], scene.vertices[b], scene.vertices[c]};
+  for (const auto& [corner, material, patch] : path.object->faces) {
     const Vec3 normal = normalized(cross(corner[1] - corner[0], corner[2] - corner[0]));
     const double x = dot(normal, path.in), y = dot(normal, path.out), size = std::abs(x) + std::abs(y);
     if (size < 1e-9) continue;  // both along the face
     const Complex integral = surface_integral(path, corner, normal, wavenumber);
-    black += (path.object->sheet ? 0.5 : 0.25) * (x + y) * (x + y) / size * integral;
-    const bool sends_back = path.object->sheet ? x * y < 0 : x < 0 && y > 0;
+    black += (path.object->flat() ? 0.5 : 0.25) * (x + y) * (x + y) / size * integral;
+    const bool sends_back = path.object->flat() ? x * y < 0 : x < 0 && y > 0;
     if (!sends_back) continue;
-    const auto there = face_reflection(plan, scene.triangle_material[t], band, std::abs(x)),
-               back = face_reflection(plan, scene.triangle_material[t], band, std::abs(y));
+    const auto there = face_reflection(plan, material, band, std::abs(x)),
+               back = face_reflection(plan, material, band, std::abs(y));
     const ReflectionCoefficients r{0.5 * (there.te + back.te), 0.5 * (there.tm + back.tm)};
     const Complex factor = 2 * std::abs(x * y) / size * integral;
     if (radio)
@@ -144,7 +141,7 @@ void object_wave(const Scene& scene, const Plan& plan, const Transmitter& transm
   for (std::size_t band = 0; band < plan.bands(); ++band) {
     ComplexVec3 wave{launched.x, launched.y, launched.z};
     pass_faces(0, path.position, launch, wave, band);
-    wave = scattered(scene, plan, path, wave, band);
+    wave = scattered(plan, path, wave, band);
     const Vec3 arriving = pass_faces(path.position + path.edges, interactions.size(), path.out, wave, band);
     const double scale = (radio ? 1 / (2 * plan.wavenumber[band]) : 1 / std::sqrt(4 * pi)) *
                          std::exp(-plan.attenuation[band] * (path.s_in + path.s_out));
@@ -170,11 +167,11 @@ void add_bounded_wave(const Scene& scene, const Plan& plan, const Transmitter& t
   if (!unfolded.solve_in_planes(receiver, 2 * pi / plan.wavenumber.front(), geometry)) return;
   const Vec3 &from = geometry.points[path.position], &to = geometry.points[path.position + 1];
   if (face == no_index) {
-    if (!crosses(scene, *path.object, from, to)) return;
+    if (!crosses(*path.object, from, to)) return;
   } else {
     // The mirror's point lies on the face, and nothing of the object before it.
     const Vec3 hair = 1e-3 * path.object->diameter * normalized(to - from);
-    if (!crosses(scene, *path.object, face, from, to + hair) || crosses(scene, *path.object, from, to - hair)) return;
+    if (!crosses(*path.object, face, from, to + hair) || crosses(*path.object, from, to - hair)) return;
   }
   std::vector<BandField> wave(plan.bands());
   path_field(scene, plan, transmitter, bounded, geometry, wave);
@@ -185,8 +182,10 @@ void add_bounded_wave(const Scene& scene, const Plan& plan, const Transmitter& t
 
 /// Whether a path may bring its object's wave: over one edge; over two only in the object's shadow, where no edge may
 /// be seen from both ends. (Two edges are not tied to the direct wave.)
-bool brings_object(const Scene& scene, const ObjectPath& path) {
-  return path.object != nullptr && (path.edges == 1 || crosses(scene, *path.object, path.source, path.receiver));
+bool brings_object(const ObjectPath& path) {
+  if (path.object == nullptr) return false;
+  return path.edges == 1 ||
+         (path.object->kind != ObjectKind::opening && crosses(*path.object, path.source, path.receiver));
 }
 
 /// Shares of the models in the wave of one edge, at the first band.
@@ -210,7 +209,7 @@ SequenceHash object_name(const Scene& scene, const Plan& plan, const Vec3& sourc
                          std::span<const Interaction> interactions, const PathGeometry& geometry) {
   if (plan.small_objects.objects.empty()) return 0;
   const ObjectPath path = object_path(scene, plan, source, interactions, geometry);
-  if (!brings_object(scene, path) || path.share(2 * pi / plan.wavenumber.front()) == 0) return 0;
+  if (!brings_object(path) || path.share(2 * pi / plan.wavenumber.front()) == 0) return 0;
   const auto number = static_cast<std::uint32_t>(path.object - plan.small_objects.objects.data());
   SequenceHash name = empty_sequence;
   for (std::size_t i = 0; i < interactions.size(); ++i)
@@ -234,7 +233,7 @@ void arrival_field(const Scene& scene, const Plan& plan, const Transmitter& tran
   for (std::size_t band = 0; band < plan.bands(); ++band) share[band] = path.share(2 * pi / plan.wavenumber[band]);
   if (share.front() == 0) return;  // N is least at the longest wave
   std::vector<BandField> whole(plan.bands());
-  if (carries && brings_object(scene, path)) {
+  if (carries && brings_object(path)) {
     object_wave(scene, plan, transmitter, interactions, path, whole);
     const Vec3& receiver = geometry.points[geometry.count - 1];
     add_bounded_wave(scene, plan, transmitter, interactions, path, receiver, no_index, whole);
@@ -242,12 +241,12 @@ void arrival_field(const Scene& scene, const Plan& plan, const Transmitter& tran
     // Faces of the path and the object's own.
     const auto reflections = static_cast<int>(interactions.size() - path.edges + 1);
     if (plan.request.reflection && reflections <= plan.request.max_reflections)
-      for (const std::uint32_t t : path.object->triangles)
-        if (const std::uint32_t face = scene.patches.triangle_patch[t];
-            std::find(faces.begin(), faces.end(), face) == faces.end())
-          faces.push_back(face);
+      for (const ObjectFace& face : path.object->faces)
+        if (std::find(faces.begin(), faces.end(), face.patch) == faces.end()) faces.push_back(face.patch);
     for (const std::uint32_t face : faces)
       add_bounded_wave(scene, plan, transmitter, interactions, path, receiver, face, whole);
+    if (path.object->kind == ObjectKind::opening)
+      for (BandField& wave : whole) wave = {-wave[0], -wave[1]};
   }
   for (std::size_t band = 0; band < plan.bands(); ++band)
     for (std::size_t p = 0; p < 2; ++p)

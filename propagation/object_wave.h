@@ -1,5 +1,5 @@
 #pragma once
-// Arrivals under `auto`: the field of a path, with small objects as wholes, and which model carried it.
+// Arrivals under `auto`: the field of a path, with small objects and openings as wholes, and which model carried it.
 
 #include <array>
 #include <complex>
@@ -33,6 +33,10 @@ bool carries_object(std::span<const Arrival> before, SequenceHash name);
 /// direct wave, or its face reflects to the receiver, the engine has a wave less or one too many: + direct, − reflected
 /// wave (path_field of the sequence without the edge, with the face in its place). So the sum of all arrivals is the
 /// incident wave less that through an opening of the object's outline (Babinet), and what the faces send back.
+/// An opening's wave is that of a plate of the sheet's material that fills it, sign reversed (Babinet), over one edge
+/// alone (a flat rim has every edge in sight of both ends): behind it what comes through less the direct wave where
+/// that comes through, before it what the sheet lacks to be whole. Unlike an object's wave, which is little beside the
+/// direct one, it may be all there is: paths over its edges reach everywhere (shines_through).
 /// Source: Kirchhoff's integral over the object's surface; the flux e^{−jk(i−o)·r}(i+o)/2 has no divergence, so that
 /// only the outline counts: in the forward direction the sum over a solid is the integral over its silhouette. b is the
 /// mean of the outlines that source and receiver see, weighted so that it is symmetric and continuous; c that of
@@ -40,7 +44,8 @@ bool carries_object(std::span<const Arrival> before, SequenceHash name);
 /// turns to o; reflected as by the face's plane. Faces before and after the object by mirrors of source and receiver.
 /// Inputs: `carries`: true for the one path at a point that brings the object's wave, false for others of the same
 /// object_name. Valid: objects as in small_object.h, nothing else near the straight ways past them.
-/// Error: 0.3 dB against Kirchhoff's integral up to N = 0.1 (held by the cases `auto`). Reciprocal but for the
+/// Error: 0.3 dB against Kirchhoff's integral up to N = 0.1, openings 0.45 dB down to 20 dB below their axis (held by
+/// the cases `auto`). Reciprocal but for the
 /// antennas.
 void arrival_field(const Scene& scene, const Plan& plan, const Transmitter& transmitter,
                    std::span<const Interaction> interactions, const PathGeometry& geometry, bool carries,

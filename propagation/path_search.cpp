@@ -72,7 +72,7 @@ SequenceTable search_for_point(const Scene& scene, const Tracer& tracer, const P
   for (const std::uint32_t sequence : around) {
     const auto interactions = here.sequences[sequence];
     PathGeometry geometry;
-    UnfoldedSequence unfolded(scene, request.transmitters[transmitter].position, interactions);
+    UnfoldedSequence unfolded(scene, request.transmitters[transmitter].position, interactions, &plan.small_objects);
     if (unfolded.solve(point, 2 * pi / plan.wavenumber.front(), geometry))
       strongest.emplace_back(-power_bound(scene, plan, interactions, geometry), sequence);
   }

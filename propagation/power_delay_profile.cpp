@@ -60,7 +60,7 @@ void add_arrivals(const Scene& scene, const Tracer& tracer, const Plan& plan, co
         for (std::size_t s = block * block_size; s < std::min(count, (block + 1) * block_size); ++s) {
           const auto interactions = sequences[s];
           if (interactions.empty() && !plan.request.direct) continue;
-          UnfoldedSequence unfolded(scene, transmitter.position, interactions);
+          UnfoldedSequence unfolded(scene, transmitter.position, interactions, &plan.small_objects);
           if (!unfolded.solve(position, wavelength, arrival.geometry)) continue;
           if (!connected(scene, tracer, interactions, arrival.geometry, found[block].shadow_rays)) continue;
           arrival.hash = sequences.hash(s);
@@ -91,7 +91,7 @@ bool find_path(const Scene& scene, const Plan& plan, const Transmitter& transmit
     arrival.hash = name;
     arrival.interactions = (*table)[number];
     if (arrival.interactions.empty() && !plan.request.direct) return false;
-    UnfoldedSequence unfolded(scene, transmitter.position, arrival.interactions);
+    UnfoldedSequence unfolded(scene, transmitter.position, arrival.interactions, &plan.small_objects);
     if (!unfolded.solve(position, 2 * pi / plan.wavenumber.front(), arrival.geometry)) return false;
     arrival.field.resize(plan.bands());
     path_field(scene, plan, transmitter, arrival.interactions, arrival.geometry, arrival.field);

@@ -26,6 +26,7 @@ class Refiner {
           const Discovered& discovered, Grown& grown)
       : scene_(scene),
         tracer_(tracer),
+        small_objects_(plan.small_objects),
         source_(plan.request.transmitters[transmitter].position),
         wavelength_(2 * pi / plan.wavenumber.front()),
         strong_share_(effort_of(plan.request).strong_share),
@@ -76,7 +77,7 @@ class Refiner {
     const auto interactions = discovered_.sequences[sequence];
     const auto points = grid_.dense_of(cell);
     const Vec3 centre = grid_.layout.centre(cell);
-    UnfoldedSequence unfolded(scene_, source_, interactions);
+    UnfoldedSequence unfolded(scene_, source_, interactions, &small_objects_);
     std::uint64_t arrives = 0;
     for (std::size_t i = 0; i < points.size(); ++i)
       if (unfolded.solve(centre + points[i].offset, wavelength_, geometry) &&
@@ -87,6 +88,7 @@ class Refiner {
 
   const Scene& scene_;
   const Tracer& tracer_;
+  const SmallObjects& small_objects_;
   const Vec3 source_;
   const double wavelength_, strong_share_;
   const CoverageGrid& grid_;

@@ -1,13 +1,12 @@
 #include "propagation/small_object.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
-#include <span>
 #include <utility>
 
 #include "core/constants.h"
+#include "propagation/small_opening.h"
 
 namespace grimaldi {
 namespace {
@@ -95,42 +94,14 @@ Shape shape_of(const Scene& scene, const std::vector<std::uint32_t>& triangles) 
   return shape;
 }
 
-/// Lowest and highest coordinates.
-std::array<Vec3, 2> box_of(const Scene& scene, std::span<const std::uint32_t> triangles) {
-  std::array<Vec3, 2> bounds{scene.high, scene.low};
-  for (const std::uint32_t t : triangles)
-    for (const std::uint32_t v : scene.triangles[t]) {
-      const Vec3& p = scene.vertices[v];
-      bounds[0] = {std::min(bounds[0].x, p.x), std::min(bounds[0].y, p.y), std::min(bounds[0].z, p.z)};
-      bounds[1] = {std::max(bounds[1].x, p.x), std::max(bounds[1].y, p.y), std::max(bounds[1].z, p.z)};
-    }
-  return bounds;
-}
-
-/// True if no other triangle's box comes within 1 cm of the object's.
-bool stands_free(const Scene& scene, const SmallObject& object) {
-  constexpr double gap = 0.01;
-  const auto own = box_of(scene, object.triangles);
-  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
-    const auto other = box_of(scene, {&t, 1});
-    bool apart = false;
-    for (int axis = 0; axis < 3; ++axis)
-      apart = apart || other[0][axis] > own[1][axis] + gap || other[1][axis] < own[0][axis] - gap;
-    if (!apart && !std::binary_search(object.triangles.begin(), object.triangles.end(), t)) return false;
-  }
-  return true;
-}
-
 /// The object of these triangles with its measures.
-SmallObject bounded(const Scene& scene, const std::vector<std::uint32_t>& triangles) {
-  SmallObject object{{}, 0, 0, false, triangles};
-  for (const std::uint32_t t : triangles) object.area += 0.5 * norm(corners(scene, t).normal());
-  const auto [low, high] = box_of(scene, triangles);
-  object.centre = 0.5 * (low + high);
-  for (const std::uint32_t t : triangles)
-    for (const std::uint32_t v : scene.triangles[t])
-      object.diameter = std::max(object.diameter, 2 * distance(object.centre, scene.vertices[v]));
-  return object;
+SmallObject object_of(const Scene& scene, const std::vector<std::uint32_t>& triangles, ObjectKind kind) {
+  std::vector<ObjectFace> faces;
+  for (const std::uint32_t t : triangles) {
+    const Corners face = corners(scene, t);
+    faces.push_back({{face.a, face.b, face.c}, scene.triangle_material[t], scene.patches.triangle_patch[t]});
+  }
+  return measured(kind, std::move(faces));
 }
 
 }  // namespace
@@ -153,10 +124,11 @@ SmallObjects find_small_objects(const Scene& scene, double largest) {
     if (component_of[w] < several) wedges_of[component_of[w]].push_back(w);
   for (std::uint32_t part = 0; part < parts.size(); ++part) {
     if (parts[part].size() > most_triangles || wedges_of[part].empty()) continue;
-    SmallObject object = bounded(scene, parts[part]);
+    SmallObject object = object_of(scene, parts[part], ObjectKind::solid);
     if (object.diameter > largest) continue;
     const Shape shape = shape_of(scene, parts[part]);
     if (!shape.sheet && !shape.solid) continue;
+    if (shape.sheet) object.kind = ObjectKind::sheet;
     double length = 0;
     bool rims = true;
     for (const std::uint32_t w : wedges_of[part]) {
@@ -164,28 +136,27 @@ SmallObjects find_small_objects(const Scene& scene, double largest) {
       rims = rims && wedges.wedges[w].free_rim == shape.sheet;
     }
     if (!rims || std::abs(length - shape.edges) > whole * shape.edges) continue;
-    if (!stands_free(scene, object)) continue;
-    object.sheet = shape.sheet;
+    const auto own = [&](std::uint32_t t) { return std::binary_search(parts[part].begin(), parts[part].end(), t); };
+    if (!stands_free(scene, object, own)) continue;
     for (const std::uint32_t w : wedges_of[part]) found.of_wedge[w] = static_cast<std::uint32_t>(found.objects.size());
     found.objects.push_back(std::move(object));
   }
+  add_small_openings(scene, largest, found);
   return found;
 }
 
-bool crosses(const Scene& scene, const SmallObject& object, const Vec3& a, const Vec3& b) {
-  return crosses(scene, object, no_index, a, b);
-}
+bool crosses(const SmallObject& object, const Vec3& a, const Vec3& b) { return crosses(object, no_index, a, b); }
 
-bool crosses(const Scene& scene, const SmallObject& object, std::uint32_t patch, const Vec3& a, const Vec3& b) {
+bool crosses(const SmallObject& object, std::uint32_t patch, const Vec3& a, const Vec3& b) {
   const Vec3 way = b - a;
-  return std::any_of(object.triangles.begin(), object.triangles.end(), [&](std::uint32_t t) {
-    if (patch != no_index && scene.patches.triangle_patch[t] != patch) return false;
+  return std::any_of(object.faces.begin(), object.faces.end(), [&](const ObjectFace& face) {
+    if (patch != no_index && face.patch != patch) return false;
     // Signed volumes over the three sides: the line passes inside if they agree; the ends lie on both sides.
-    const Corners face = corners(scene, t);
-    const Vec3 normal = face.normal();
-    if (dot(normal, a - face.a) * dot(normal, b - face.a) > 0) return false;
-    const double u = dot(way, cross(face.b - a, face.c - a)), v = dot(way, cross(face.c - a, face.a - a)),
-                 w = dot(way, cross(face.a - a, face.b - a));
+    const auto& [p, q, r] = face.corner;
+    const Vec3 normal = cross(q - p, r - p);
+    if (dot(normal, a - p) * dot(normal, b - p) > 0) return false;
+    const double u = dot(way, cross(q - a, r - a)), v = dot(way, cross(r - a, p - a)),
+                 w = dot(way, cross(p - a, q - a));
     return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
   });
 }

@@ -1,6 +1,7 @@
 #pragma once
-// Objects that can scatter as a whole: flat sheets and convex solids that stand free.
+// Objects that can scatter as a whole: flat sheets and convex solids that stand free, openings in sheets.
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -9,12 +10,25 @@
 
 namespace grimaldi {
 
+/// A triangle of an object; of an opening it has the material and the patch of the sheet around.
+struct ObjectFace {
+  std::array<Vec3, 3> corner;
+  std::uint32_t material, patch;
+};
+
+enum class ObjectKind {
+  sheet,   ///< flat, open to both sides
+  solid,   ///< closed and convex
+  opening  ///< a hole in a sheet: what fills it is there in thought only
+};
+
 struct SmallObject {
   Vec3 centre;      ///< of its bounding box
   double diameter;  ///< of the sphere about it, m
   double area;      ///< of its triangles, m²
-  bool sheet;       ///< flat, open to both sides; else a closed convex solid
-  std::vector<std::uint32_t> triangles;
+  ObjectKind kind;
+  std::vector<ObjectFace> faces;
+  bool flat() const { return kind != ObjectKind::solid; }
 };
 
 struct SmallObjects {
@@ -33,15 +47,19 @@ struct SmallObjects {
 /// convex (no vertex more than 1 mm before a triangle's plane) and with all its sharp edges free: the lengths of its
 /// wedges add up to those of its edges above 185°, within 1 %; and no triangle
 /// of another component has a bounding box within 1 cm of its own. So what stands on the ground or touches a wall is
-/// none, nor is a sheet with an artificial rim. Inputs: a scene as build_scene leaves it; m. Returns: in the order of
-/// their first triangles. Error: none. Throws: nothing.
+/// none, nor is a sheet with an artificial rim.
+/// An opening is a closed loop of free rims of one patch, corner to corner, in its plane to 1 mm, the surface on its
+/// outer side, and no triangle but of that patch has a bounding box within 1 cm of its own. Holes in a sheet that is
+/// an object are part of that object. A gap that runs to the outer rim of a sheet, or between two sheets, is none.
+/// Inputs: a scene as build_scene leaves it; m. Returns: sheets and solids in the order of their first triangles, then
+/// openings in the order of their first wedges. Error: none. Throws: nothing.
 SmallObjects find_small_objects(const Scene& scene, double largest);
 
 /// True if the straight way from a to b goes through a triangle of the object. Inputs: m. Error: that of rounding at
 /// the rims.
-bool crosses(const Scene& scene, const SmallObject& object, const Vec3& a, const Vec3& b);
+bool crosses(const SmallObject& object, const Vec3& a, const Vec3& b);
 
 /// The same for the object's triangles of one patch; patch = no_index: of any.
-bool crosses(const Scene& scene, const SmallObject& object, std::uint32_t patch, const Vec3& a, const Vec3& b);
+bool crosses(const SmallObject& object, std::uint32_t patch, const Vec3& a, const Vec3& b);
 
 }  // namespace grimaldi

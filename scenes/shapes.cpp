@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 
 #include "core/contract.h"
 
@@ -67,26 +68,12 @@ bool is_ear(const std::vector<PlanPoint>& outline, const std::vector<Index>& lef
   return true;
 }
 
-/// Ear clipping (Meisters 1975: a simple polygon has at least two ears), shortest diagonal first.
 void append_flat_roof(const std::vector<PlanPoint>& outline, double height, MeshDescription& mesh) {
-  std::vector<Index> left;
-  for (const PlanPoint& p : outline) left.push_back(append_vertex(lifted(p, height), mesh));
-  while (left.size() >= 3) {
-    const std::size_t n = left.size();
-    std::size_t best = n;
-    double shortest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < n; ++i) {
-      const double diagonal = distance2(outline[left[(i + n - 1) % n]], outline[left[(i + 1) % n]]);
-      if (diagonal < shortest && is_ear(outline, left, i)) {
-        best = i;
-        shortest = diagonal;
-      }
-    }
-    GRIMALDI_EXPECT(best < n);
-    if (best == n) return;  // the outline is not simple: it has no ear
-    mesh.triangles.push_back({left[(best + n - 1) % n], left[best], left[(best + 1) % n]});
-    left.erase(left.begin() + static_cast<std::ptrdiff_t>(best));
-  }
+  std::vector<Index> corners;
+  for (const PlanPoint& p : outline) corners.push_back(append_vertex(lifted(p, height), mesh));
+  const auto roof = fill(outline);
+  GRIMALDI_EXPECT(!roof.empty());
+  for (const auto& [a, b, c] : roof) mesh.triangles.push_back({corners[a], corners[b], corners[c]});
 }
 
 void append_ring_roof(const Building& building, MeshDescription& mesh) {
@@ -123,6 +110,28 @@ double signed_area(const std::vector<PlanPoint>& polygon) {
   double twice = 0;
   for (std::size_t i = 2; i < polygon.size(); ++i) twice += turn(polygon[0], polygon[i - 1], polygon[i]);
   return 0.5 * twice;
+}
+
+std::vector<std::array<std::uint32_t, 3>> fill(const std::vector<PlanPoint>& outline) {
+  std::vector<Index> left(outline.size());
+  std::iota(left.begin(), left.end(), Index{0});
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  while (left.size() >= 3) {
+    const std::size_t n = left.size();
+    std::size_t best = n;
+    double shortest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < n; ++i) {
+      const double diagonal = distance2(outline[left[(i + n - 1) % n]], outline[left[(i + 1) % n]]);
+      if (diagonal < shortest && is_ear(outline, left, i)) {
+        best = i;
+        shortest = diagonal;
+      }
+    }
+    if (best == n) return {};
+    triangles.push_back({left[(best + n - 1) % n], left[best], left[(best + 1) % n]});
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(best));
+  }
+  return triangles;
 }
 
 void append_building(const Building& building, SceneDescription& scene) {

@@ -1,6 +1,8 @@
 #pragma once
 // What the built-in scenes are made of: flat sheets, and buildings over a footprint.
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +31,11 @@ struct Building {
 
 /// Area of the polygon, m², positive if counter-clockwise. Shoelace formula.
 double signed_area(const std::vector<PlanPoint>& polygon);
+
+/// The triangles that fill a simple polygon, by the numbers of its corners, counter-clockwise: ear clipping (Meisters
+/// 1975: a simple polygon has at least two ears), shortest diagonal first. Inputs: corners counter-clockwise, no three
+/// neighbours in line. Returns: corners − 2 triangles; none if the outline is not simple.
+std::vector<std::array<std::uint32_t, 3>> fill(const std::vector<PlanPoint>& outline);
 
 /// Appends two meshes, "NAME walls" (gables included) and "NAME roof", with outward normals. Corners that the two share
 /// have the same bits, so the pair is closed but for its foot: every edge above z = 0 has two triangles. A flat roof of

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/random.h"
@@ -9,6 +10,7 @@
 #include "propagation/object_wave.h"
 #include "propagation/result_file.h"
 #include "propagation/small_object.h"
+#include "scenes/shapes.h"
 #include "tests/propagation/runs.h"
 
 namespace grimaldi {
@@ -83,6 +85,19 @@ void append(SceneDescription& scene, double x, double depth, double half) {
   scene.meshes.push_back(std::move(mesh));
 }
 
+/// A metal sheet in x = `x` over the squares between the lines of `grid` along y and z, without those numbered by
+/// `holes` (along y first); outer rim artificial.
+void append_holed(SceneDescription& scene, double x, const std::vector<double>& grid, std::vector<std::size_t> holes) {
+  MeshDescription mesh{"sheet", "", "metal", {}, {}, {}};
+  append_sheet(grid, grid, {x, 0, 0}, {0, 1, 0}, {0, 0, 1}, {true, true, true, true}, mesh);
+  std::sort(holes.rbegin(), holes.rend());
+  for (const std::size_t cell : holes) {
+    const auto first = mesh.triangles.begin() + static_cast<std::ptrdiff_t>(2 * cell);
+    mesh.triangles.erase(first, first + 2);
+  }
+  scene.meshes.push_back(std::move(mesh));
+}
+
 Scene built(const SceneDescription& description) {
   Diagnostics diagnostics;
   MaterialChoice choice;
@@ -100,8 +115,8 @@ TEST(SmallObject, SheetsAndConvexSolidsThatStandFree) {
   const Scene scene = built(description);
   const SmallObjects found = find_small_objects(scene, 1e3);
   ASSERT_EQ(found.objects.size(), 2u);
-  EXPECT_TRUE(found.objects[0].sheet);
-  EXPECT_FALSE(found.objects[1].sheet);
+  EXPECT_EQ(found.objects[0].kind, ObjectKind::sheet);
+  EXPECT_EQ(found.objects[1].kind, ObjectKind::solid);
   EXPECT_DOUBLE_EQ(found.objects[0].diameter, 2 * std::sqrt(2.0));
   EXPECT_DOUBLE_EQ(found.objects[1].diameter, 3);
   EXPECT_DOUBLE_EQ(found.objects[0].area, 4);
@@ -111,9 +126,9 @@ TEST(SmallObject, SheetsAndConvexSolidsThatStandFree) {
     if (object != no_index) ++edges[object];
   EXPECT_EQ(edges[0], 4u);
   EXPECT_EQ(edges[1], 12u);
-  EXPECT_TRUE(crosses(scene, found.objects[1], {10, 0.3, 0.2}, {30, 0.3, 0.2}));
-  EXPECT_FALSE(crosses(scene, found.objects[1], {10, 1.3, 0.2}, {30, 1.3, 0.2}));
-  EXPECT_FALSE(crosses(scene, found.objects[1], {10, 0.3, 0.2}, {19, 0.3, 0.2}));
+  EXPECT_TRUE(crosses(found.objects[1], {10, 0.3, 0.2}, {30, 0.3, 0.2}));
+  EXPECT_FALSE(crosses(found.objects[1], {10, 1.3, 0.2}, {30, 1.3, 0.2}));
+  EXPECT_FALSE(crosses(found.objects[1], {10, 0.3, 0.2}, {19, 0.3, 0.2}));
   EXPECT_EQ(find_small_objects(scene, 2.9).objects.size(), 1u);
 }
 
@@ -122,10 +137,76 @@ TEST(SmallObject, BuildingsOnTheGroundAndCutSheetsAreNone) {
   EXPECT_TRUE(find_small_objects(test::built_in("half-plane"), 1e6).objects.empty());
 }
 
+TEST(SmallObject, HolesInSheets) {
+  const std::vector<double> grid{-30, -1, 0, 1, 30};
+  SceneDescription description;
+  append_holed(description, 0, grid, {5, 6, 9});  // three of the four small squares
+  append_holed(description, 20, grid, {5, 6, 9, 10});
+  append(description, 20, 0, 0.2);               // a plate in the middle of that hole
+  append_holed(description, 40, grid, {5, 10});  // two that meet at a corner
+  append_holed(description, 60, grid, {4, 5});   // a notch
+  const Scene scene = built(description);
+  const SmallObjects found = find_small_objects(scene, 5);
+  // The plate stands free: an object; the hole that it stands in is none.
+  ASSERT_EQ(found.objects.size(), 2u);
+  EXPECT_EQ(found.objects[0].kind, ObjectKind::sheet);
+  const SmallObject& hole = found.objects[1];
+  EXPECT_EQ(hole.kind, ObjectKind::opening);
+  EXPECT_DOUBLE_EQ(hole.area, 3);
+  EXPECT_DOUBLE_EQ(hole.diameter, 2 * std::sqrt(2.0));
+  double rim = 0;
+  for (std::uint32_t w = 0; w < found.of_wedge.size(); ++w)
+    if (found.of_wedge[w] == 1) rim += scene.wedges.wedges[w].length;
+  EXPECT_DOUBLE_EQ(rim, 8);
+  EXPECT_TRUE(crosses(hole, {-1, -0.5, 0.5}, {1, -0.5, 0.5}));
+  EXPECT_FALSE(crosses(hole, {-1, 0.5, 0.5}, {1, 0.5, 0.5}));  // the square that is left
+  EXPECT_TRUE(find_small_objects(scene, 2.8).objects.size() == 1);
+}
+
+TEST(SmallObject, HolesInASmallSheetArePartOfIt) {
+  SceneDescription description;
+  append_holed(description, 0, {-3, -1, 1, 3}, {4});
+  description.meshes[0].artificial_edges.clear();
+  const SmallObjects found = find_small_objects(built(description), 50);
+  ASSERT_EQ(found.objects.size(), 1u);
+  EXPECT_EQ(found.objects[0].kind, ObjectKind::sheet);
+  EXPECT_DOUBLE_EQ(found.objects[0].area, 32);
+  // The sheet is too large, the hole is not.
+  const SmallObjects holes = find_small_objects(built(description), 5);
+  ASSERT_EQ(holes.objects.size(), 1u);
+  EXPECT_EQ(holes.objects[0].kind, ObjectKind::opening);
+}
+
+TEST(ObjectWave, SmallOpeningsShineWhereTheirEdgesDoNot) {
+  SceneDescription description;
+  append_holed(description, 0, {-30, -0.4, 0.4, 30}, {4});
+  const Scene scene = built(description);
+  const SmallObjects found = find_small_objects(scene, 5);
+  ASSERT_EQ(found.objects.size(), 1u);
+  const Vec3 source{-40, 0.1, 0.2};
+  int edges = 0;
+  for (std::uint32_t w = 0; w < scene.wedges.wedges.size(); ++w) {
+    const Interaction interactions[] = {edge_interaction(w)};
+    PathGeometry geometry;
+    const auto reaches = [&](const SmallObjects* objects, double wavelength) {
+      return UnfoldedSequence(scene, source, interactions, objects).solve({40, 16, 16}, wavelength, geometry);
+    };
+    // 7.6 m beyond the edges' ends: v_V = 4.4.
+    EXPECT_FALSE(reaches(nullptr, 0.3));
+    EXPECT_TRUE(reaches(&found, 0.3));
+    EXPECT_FALSE(reaches(&found, 0.01));  // N = 1.5
+    edges += found.of_wedge[w] == 0;
+  }
+  EXPECT_EQ(edges, 4);
+}
+
 TEST(ObjectWave, StaysBelowItsBound) {
-  for (const double depth : {0.0, 0.6}) {
+  for (const int kind : {0, 1, 2}) {
     SceneDescription description;
-    append(description, 0, depth, 0.4);
+    if (kind == 2)
+      append_holed(description, 0, {-30, -0.4, 0.4, 30}, {4});
+    else
+      append(description, 0, 0.6 * kind, 0.4);
     const Scene scene = built(description);
     PlanDescription request = test::plan_for(WaveKind::radio, 1e9, {-20, 0, 0});
     request.diffraction_model = DiffractionModel::automatic;
@@ -144,7 +225,8 @@ TEST(ObjectWave, StaysBelowItsBound) {
       for (std::uint32_t w = 0; w < scene.wedges.wedges.size(); ++w) {
         const Interaction interactions[] = {edge_interaction(w)};
         PathGeometry geometry;
-        if (!UnfoldedSequence(scene, source, interactions).solve(receiver, 0.3, geometry)) continue;
+        if (!UnfoldedSequence(scene, source, interactions, &plan.small_objects).solve(receiver, 0.3, geometry))
+          continue;
         std::array<std::complex<double>, 2> field[1];
         arrival_field(scene, plan, plan.request.transmitters[0], interactions, geometry, true, field);
         EXPECT_LE(received_power(field[0], Polarisation::both), power_bound(scene, plan, interactions, geometry));
@@ -156,37 +238,42 @@ TEST(ObjectWave, StaysBelowItsBound) {
 }
 
 TEST(ObjectWave, MapsCountItOnceAndTellWhatCarriedIt) {
-  SceneDescription description;
-  append(description, 0, 0, 0.4);
-  const Scene scene = built(description);
-  PlanDescription request = test::plan_for(WaveKind::radio, 1e9, {-40, 0.1, 0.2});
-  request.diffraction_model = DiffractionModel::automatic;
-  request.depth = 1;
-  request.rays = 1e5;
-  request.coverage = CoverageRequest{};
-  request.coverage->height = 0.3;
-  request.coverage->cell_size = 0.02;
-  request.coverage->area = {{30, -1, 30.1, 1}};
-  const Tracer tracer(scene);
-  Diagnostics diagnostics;
-  Plan plan = make_plan(request, scene, tracer, diagnostics);
-  diagnostics.throw_if_errors();
-  std::vector<std::size_t> cells;
-  for (std::size_t cell = 2; cell < plan.grid.size(); cell += 61) {
-    cells.push_back(cell);
-    request.receivers.push_back(test::receiver_at(plan.grid.centre(cell)));
+  for (const bool hole : {false, true}) {
+    SceneDescription description;
+    if (hole)
+      append_holed(description, 0, {-30, -0.4, 0.4, 30}, {4});
+    else
+      append(description, 0, 0, 0.4);
+    const Scene scene = built(description);
+    PlanDescription request = test::plan_for(WaveKind::radio, 1e9, {-40, 0.1, 0.2});
+    request.diffraction_model = DiffractionModel::automatic;
+    request.depth = 1;
+    request.rays = 1e5;
+    request.coverage = CoverageRequest{};
+    request.coverage->height = 0.3;
+    request.coverage->cell_size = 0.02;
+    request.coverage->area = {{30, -1, 30.1, 1}};
+    const Tracer tracer(scene);
+    Diagnostics diagnostics;
+    Plan plan = make_plan(request, scene, tracer, diagnostics);
+    diagnostics.throw_if_errors();
+    std::vector<std::size_t> cells;
+    for (std::size_t cell = 2; cell < plan.grid.size(); cell += 61) {
+      cells.push_back(cell);
+      request.receivers.push_back(test::receiver_at(plan.grid.centre(cell)));
+    }
+    plan = make_plan(request, scene, tracer, diagnostics);
+    const Result result = simulate(scene, tracer, plan);
+    const MapFigures figures = map_figures(plan, *result.coverage);
+    const double diffraction = figures.mechanism_power[std::size_t(Mechanism::diffraction)];
+    EXPECT_GT(diffraction, 0);
+    // N = 0.06 at all cells: the whole object alone. 1e-12: rounding of sums.
+    EXPECT_NEAR(figures.model_power[std::size_t(EdgeModel::polygon)] / diffraction, 1, 1e-12);
+    EXPECT_EQ(figures.model_power[std::size_t(EdgeModel::utd)], 0);
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      // A cell of 2 cm is nearly a point: the level changes by less than 0.05 dB over it.
+      EXPECT_NEAR(test::decibel(result.coverage->path_gain[cells[i]] / result.profiles[i].total[0]), 0, 0.05);
   }
-  plan = make_plan(request, scene, tracer, diagnostics);
-  const Result result = simulate(scene, tracer, plan);
-  const MapFigures figures = map_figures(plan, *result.coverage);
-  const double diffraction = figures.mechanism_power[std::size_t(Mechanism::diffraction)];
-  EXPECT_GT(diffraction, 0);
-  // N = 0.06 at all cells: the whole object alone. 1e-12: rounding of sums.
-  EXPECT_NEAR(figures.model_power[std::size_t(EdgeModel::polygon)] / diffraction, 1, 1e-12);
-  EXPECT_EQ(figures.model_power[std::size_t(EdgeModel::utd)], 0);
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    // A cell of 2 cm is nearly a point: the level changes by less than 0.05 dB over it.
-    EXPECT_NEAR(test::decibel(result.coverage->path_gain[cells[i]] / result.profiles[i].total[0]), 0, 0.05);
 }
 
 }  // namespace

@@ -50,6 +50,18 @@ SceneDescription upright_plate(double wide, double high) {
   return scene;
 }
 
+SceneDescription upright_screen_with_hole(double half, double wide, double high) {
+  SceneDescription scene;
+  scene.name = "screen with a hole";
+  MeshDescription mesh{"screen", scene.name, "metal", {}, {}, {}};
+  append_sheet({-half, -wide / 2, wide / 2, half}, {-half, -high / 2, high / 2, half}, {}, north, up,
+               {true, true, true, true}, mesh);
+  const auto middle = mesh.triangles.begin() + 8;  // two triangles a cell, three cells a row
+  mesh.triangles.erase(middle, middle + 2);
+  scene.meshes.push_back(std::move(mesh));
+  return scene;
+}
+
 SceneDescription closed_box(const Vec3& low, const Vec3& high) {
   SceneDescription scene;
   scene.name = "box";

@@ -26,6 +26,10 @@ SceneDescription deep_blocks(const std::vector<DeepBlock>& blocks, double depth,
 /// A metal plate in the plane x = 0, |y| ≤ wide/2, |z| ≤ high/2, normal +x. m.
 SceneDescription upright_plate(double wide, double high);
 
+/// A metal screen in the plane x = 0, |y|, |z| ≤ half, normal +x, with a hole |y| ≤ wide/2, |z| ≤ high/2; its outer rim
+/// artificial. m.
+SceneDescription upright_screen_with_hole(double half, double wide, double high);
+
 /// A closed metal box, normals outward. m.
 SceneDescription closed_box(const Vec3& low, const Vec3& high);
 
