@@ -48,6 +48,14 @@ struct SmallObjects {
 /// wedges add up to those of its edges above 185°, within 1 %; and no triangle
 /// of another component has a bounding box within 1 cm of its own. So what stands on the ground or touches a wall is
 /// none, nor is a sheet with an artificial rim.
+/// What stands on a plane that reflects could be a whole too: with its mirror image it is a free object, and the field
+/// is that of the four sequences with and without the plane before and after it, each the wave of the object without
+/// its bottom, whose rims cancel between them. It is left to its edges: the four must all be there (three interactions
+/// deep, found by an edge each), be one wave in the sums of a map, and count a wave once that the object hides both
+/// before and after the plane; and at an absorbing plane (coefficient not ±1) the bottom's rim stays. Its edges err by
+/// 4 dB behind it (case auto/box-on-the-ground).
+/// Where the shadow boundary of something else cuts the object, its wave ends with the last edge that both ends see,
+/// while the two-edge paths change sign edge by edge: a step (case auto/walk/plate-and-screen).
 /// An opening is a closed loop of free rims of one patch, corner to corner, in its plane to 1 mm, the surface on its
 /// outer side, and no triangle but of that patch has a bounding box within 1 cm of its own. Holes in a sheet that is
 /// an object are part of that object. A gap that runs to the outer rim of a sheet, or between two sheets, is none.
