@@ -114,6 +114,7 @@ Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, 
   const bool needed = request.depth > 0 && (request.reflection || request.diffraction);
   const auto total = static_cast<std::uint64_t>(request.rays);
   const auto passes = static_cast<std::uint64_t>(request.passes);
+  const std::uint64_t stride = search.stride;
   const ReflectanceTable reflectance(plan);
   const PatchRims rims(scene);
   const unsigned threads = request.threads ? request.threads : hardware_threads();
@@ -150,7 +151,7 @@ Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, 
             walker.begin_block(spacing, records[place]);
             if (block >= blocks) {
               const std::uint64_t first = (block - blocks) * aimed_block_size;
-              for (std::uint64_t i = first; i < std::min(aimed, first + aimed_block_size); ++i) {
+              for (std::uint64_t i = first; i < std::min(aimed, first + aimed_block_size); i += stride) {
                 const std::uint64_t wedge = aimed >= wedges ? i % wedges : (pass * aimed + i) % wedges;
                 const double along = (double(pass) + uniform4(request.seed, aim_stream, aimed >= wedges ? i : wedge,
                                                               std::uint32_t(pass))[0]) /
@@ -161,7 +162,7 @@ Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, 
               return;
             }
             const std::uint64_t end = std::min(count, (block + 1) * block_size);
-            for (std::uint64_t i = block * block_size; i < end; ++i)
+            for (std::uint64_t i = block * block_size; i < end; i += stride)
               walker.walk(request.transmitters[transmitter].position, launcher.direction(i), pass << 40 | i);
           },
           stop);
@@ -170,7 +171,7 @@ Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, 
       merging = std::async(std::launch::async, merge_group, std::move(records), 1u << pass);
       if (progress) progress((double(pass) + double(group + done) / double(blocks + aimed_blocks)) / double(passes));
     }
-    all.rays += count;
+    all.rays += count / stride;
     if (progress) progress(double(pass + 1) / double(passes));
   }
   if (merging.valid()) merging.get();
