@@ -155,11 +155,13 @@ int compare_verb(const Arguments& arguments) {
   if (!arguments.quiet && (arguments.progress || stderr_is_terminal())) progress.emplace(stderr_is_terminal());
 
   interruption.begin_run();
+  if (progress) progress->show("predict", 0);
   std::array<std::optional<Prediction>, 2> predicted;
   for (std::size_t m = 0; m < models.size(); ++m)
     predicted[m] = predict(scene, tracer, runs[m].plan, arguments, interruption.flag());
   const std::optional<Prediction> both = one_after_the_other(predicted);
   if (arguments.predict) return tell(both, arguments);
+  if (progress) progress->clear();
   if (both && progress) fmt::print(stderr, "predicted {}\n", prediction_text(*both));
   folders.create();
   try {

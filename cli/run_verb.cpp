@@ -77,8 +77,10 @@ int run_verb(const Arguments& arguments, Clock::time_point start) {
   }
 
   interruption.begin_run();
+  if (progress) progress->show("predict", 0);
   const std::optional<Prediction> predicted = predict(scene, tracer, plan, arguments, interruption.flag());
   if (arguments.predict) return tell(predicted, arguments);
+  if (progress) progress->clear();
   if (predicted && progress) fmt::print(stderr, "predicted {}\n", prediction_text(*predicted));
   if (progress) progress->show("discover", 0);  // the first stage; its first report comes when a part of it is done
   folder.create();

@@ -17,9 +17,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double first_share = 1.0 / 1024;
-constexpr double second_share = 0.025, second_seconds = 4;  ///< of the run's time, whichever is less
-constexpr double fewest_cells = 80;                         ///< of a sample, if the map has them
-constexpr double fewest_beams = 1600;
+constexpr double second_share = 0.02, second_seconds = 4;  ///< of the run's time, whichever is less
+constexpr double fewest_cells = 80;                        ///< of a sample, if the map has them
+constexpr double fewest_beams = 1600, most_first_beams = 30000;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -36,20 +36,21 @@ double map_bytes(const Plan& plan) {
          (transmitters * (bands * (5 + mechanism_count) + edge_model_count + 1) + 1);
 }
 
-/// The share of the beams and of the cells nearest to `share` that leaves enough of both.
-RunSample sample_for(const Plan& plan, double share) {
+/// The share of the beams and of the cells nearest to `share` that leaves enough of both, and no more than
+/// `most_beams`.
+RunSample sample_for(const Plan& plan, double share, double most_beams) {
   const double cells = double(plan.grid.size());
   RunSample sample;
-  sample.stride =
-      static_cast<std::uint64_t>(std::max(1.0, std::round(1 / std::max(share, fewest_beams / plan.request.rays))));
+  const double beams = std::min(std::max(share * plan.request.rays, fewest_beams), most_beams);
+  sample.stride = static_cast<std::uint64_t>(std::max(1.0, std::round(plan.request.rays / beams)));
   sample.block = static_cast<std::size_t>(
       std::max(1.0, std::floor(std::min(std::sqrt(1 / share), std::sqrt(cells / fewest_cells)))));
   return sample;
 }
 
 SampleCost run_sample(const Scene& scene, const Tracer& tracer, const Plan& plan, const CoverageGrid& grid,
-                      double outdoors, double share, const std::atomic<bool>* stop) {
-  const RunSample sample = sample_for(plan, share);
+                      double outdoors, double share, double most_beams, const std::atomic<bool>* stop) {
+  const RunSample sample = sample_for(plan, share, most_beams);
   SampleCost cost;
   const CoverageGrid cells = sample_of(grid, sample.block, plan.request.seed);
   const auto asked =
@@ -98,17 +99,17 @@ std::optional<Prediction> predict_cost(const Scene& scene, const Tracer& tracer,
   const std::uint64_t memory = std::max(memory_before, memory_so_far());
   const auto outdoors =
       double(std::count_if(grid.ranges.begin(), grid.ranges.end(), [](const auto& r) { return r.count > 0; }));
-  const auto predict = [&](double share) {
-    Prediction found = scaled_up(run_sample(scene, tracer, map, grid, outdoors, share, stop));
+  const auto predict = [&](double share, double most_beams) {
+    Prediction found = scaled_up(run_sample(scene, tracer, map, grid, outdoors, share, most_beams, stop));
     found.seconds += fixed;
     found.cpu_seconds += fixed_cpu;
     found.memory_bytes += memory + static_cast<std::uint64_t>(map_bytes(plan));
     return found;
   };
-  Prediction told = predict(first_share);
+  Prediction told = predict(first_share, most_first_beams);
   if (told.seconds < least_seconds) return std::nullopt;
   const double share = std::min(second_share, second_seconds / told.seconds);
-  if (share > first_share && !(stop && *stop)) told = predict(share);
+  if (share > first_share && !(stop && *stop)) told = predict(share, plan.request.rays);
   if (stop && *stop) return std::nullopt;
   told.pilot_seconds = seconds_since(start);
   return told;
