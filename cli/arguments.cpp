@@ -103,6 +103,7 @@ void add_run_options(CLI::App& app, RunOptions& run, Arguments& arguments, bool 
   app.add_flag("--overwrite", arguments.overwrite, "replace a result that is already there");
   app.add_flag("--quiet", arguments.quiet, "print nothing but errors");
   app.add_flag("--json", arguments.json, "print the summary as JSON, nothing else");
+  if (map) app.add_flag("--predict", arguments.predict, "tell the run's time and memory beforehand, and do not run it");
   app.add_flag("--progress", arguments.progress, "show progress also where stderr is no terminal");
 }
 

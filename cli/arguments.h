@@ -21,6 +21,7 @@ struct Arguments {
   std::filesystem::path output;     ///< -o; empty = the default
   unsigned threads = 0;             ///< 0 = all processors
   bool overwrite = false, quiet = false, json = false, progress = false;
+  bool predict = false;  ///< of `coverage` and `compare`: tell what the run will cost, and do not run it
   std::string rows_in = "-", rows_out = "-";  ///< of `eval`: files, - is stdin or stdout
   bool list = false, help = false;            ///< of `eval`: the functions, or what one of them is
   std::vector<std::string> cases;             ///< of `validate`, whose cases `list` lists; empty: all

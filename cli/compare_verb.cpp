@@ -17,6 +17,7 @@
 #include "cli/map_picture.h"
 #include "cli/messages.h"
 #include "cli/output_folder.h"
+#include "cli/prediction.h"
 #include "cli/progress.h"
 #include "cli/scene_request.h"
 #include "cli/version.h"
@@ -98,6 +99,14 @@ Result timed(const Scene& scene, const Tracer& tracer, Plan& plan, const Progres
   return result;
 }
 
+/// Two runs in turn; nothing if nothing is known of one of them.
+std::optional<Prediction> one_after_the_other(const std::array<std::optional<Prediction>, 2>& runs) {
+  if (!runs[0] || !runs[1]) return std::nullopt;
+  return Prediction{runs[0]->seconds + runs[1]->seconds, runs[0]->cpu_seconds + runs[1]->cpu_seconds,
+                    std::max(runs[0]->memory_bytes, runs[1]->memory_bytes),
+                    runs[0]->pilot_seconds + runs[1]->pilot_seconds};
+}
+
 std::string table(const Comparison& comparison) {
   std::string text = fmt::format("{:<14}{:>8}{:>11}{:>11}{:>11}{:>9}  {}\n", "FSD - UTD", "cells", "median", "|median|",
                                  "95 % below", "> noise", "believe");
@@ -123,7 +132,7 @@ int compare_verb(const Arguments& arguments) {
   check_request(request, arguments.input, diagnostics);
   if (!request.coverage) request.coverage = CoverageRequest{};
   Folders folders(arguments.output.empty() ? default_output_folder(arguments.input) : arguments.output);
-  folders.check(arguments.overwrite, diagnostics);
+  if (!arguments.predict) folders.check(arguments.overwrite, diagnostics);
   const Scene scene = make_scene(request, diagnostics);
   if (scene.triangles.empty()) diagnostics.throw_if_errors();
   const Tracer tracer(scene);
@@ -146,6 +155,14 @@ int compare_verb(const Arguments& arguments) {
   if (!arguments.quiet && (arguments.progress || stderr_is_terminal())) progress.emplace(stderr_is_terminal());
 
   interruption.begin_run();
+  if (progress) progress->show("predict", 0);
+  std::array<std::optional<Prediction>, 2> predicted;
+  for (std::size_t m = 0; m < models.size(); ++m)
+    predicted[m] = predict(scene, tracer, runs[m].plan, arguments, interruption.flag());
+  const std::optional<Prediction> both = one_after_the_other(predicted);
+  if (arguments.predict) return tell(both, arguments);
+  if (progress) progress->clear();
+  if (both && progress) fmt::print(stderr, "predicted {}\n", prediction_text(*both));
   folders.create();
   try {
     for (std::size_t m = 0; m < models.size(); ++m) {
@@ -162,6 +179,7 @@ int compare_verb(const Arguments& arguments) {
         report = show;
       }
       runs[m].result = timed(scene, tracer, runs[m].plan, report, interruption.flag());
+      runs[m].result.figures.predicted = predicted[m];
       if (runs[m].result.interrupted || interruption.happened()) {
         progress.reset();
         folders.remove_if_empty();

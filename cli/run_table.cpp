@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cli/prediction.h"
 #include "propagation/result_file.h"
 
 namespace grimaldi {
@@ -76,6 +77,7 @@ std::string run_table(const Scene& scene, const Plan& plan, const Result& result
   text += row("time", fmt::format("{:.2f} s, {:.2f} s of it tracing, {} thread{}, {:.0f} MB", run.wall_seconds,
                                   run.trace_seconds, run.threads, run.threads == 1 ? "" : "s",
                                   double(run.peak_memory_bytes) / 1e6));
+  if (run.predicted) text += row("predicted", prediction_text(*run.predicted));
   if (!result.warnings.empty()) text += row("warnings", fmt::format("{}", result.warnings.size()));
   text += row("files", fmt::format("{}, {}", (folder / outputs[0]).string(), (folder / outputs[2]).string()));
   return text + row("picture", (folder / outputs[1]).string());

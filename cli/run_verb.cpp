@@ -10,6 +10,7 @@
 #include "cli/map_picture.h"
 #include "cli/messages.h"
 #include "cli/output_folder.h"
+#include "cli/prediction.h"
 #include "cli/profile_picture.h"
 #include "cli/progress.h"
 #include "cli/run_table.h"
@@ -58,7 +59,7 @@ int run_verb(const Arguments& arguments, Clock::time_point start) {
   Diagnostics diagnostics;
   const PlanDescription request = read_request(arguments, diagnostics);
   OutputFolder folder(arguments.output.empty() ? default_output_folder(arguments.input) : arguments.output);
-  folder.check(arguments.overwrite, diagnostics);
+  if (!arguments.predict) folder.check(arguments.overwrite, diagnostics);
   const Scene scene = make_scene(request, diagnostics);
   if (scene.triangles.empty()) diagnostics.throw_if_errors();
   // A request with faults is held against the scene too: all faults at once.
@@ -76,6 +77,11 @@ int run_verb(const Arguments& arguments, Clock::time_point start) {
   }
 
   interruption.begin_run();
+  if (progress) progress->show("predict", 0);
+  const std::optional<Prediction> predicted = predict(scene, tracer, plan, arguments, interruption.flag());
+  if (arguments.predict) return tell(predicted, arguments);
+  if (progress) progress->clear();
+  if (predicted && progress) fmt::print(stderr, "predicted {}\n", prediction_text(*predicted));
   if (progress) progress->show("discover", 0);  // the first stage; its first report comes when a part of it is done
   folder.create();
   Result result;
@@ -86,6 +92,7 @@ int run_verb(const Arguments& arguments, Clock::time_point start) {
     throw;
   }
   progress.reset();
+  result.figures.predicted = predicted;
   if (result.interrupted || interruption.happened()) {
     folder.remove_if_empty();
     fmt::print(stderr, "error: interrupted (nothing was written)\n");

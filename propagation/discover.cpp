@@ -114,6 +114,9 @@ Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, 
   const bool needed = request.depth > 0 && (request.reflection || request.diffraction);
   const auto total = static_cast<std::uint64_t>(request.rays);
   const auto passes = static_cast<std::uint64_t>(request.passes);
+  const std::uint64_t stride = search.stride;
+  const std::uint64_t block_beams = std::max(block_size, stride), block_aims = std::max(aimed_block_size, stride);
+  const auto launched_from = [stride](std::uint64_t first) { return (first + stride - 1) / stride * stride; };
   const ReflectanceTable reflectance(plan);
   const PatchRims rims(scene);
   const unsigned threads = request.threads ? request.threads : hardware_threads();
@@ -133,13 +136,13 @@ Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, 
     if (count == 0) continue;
     const Launcher launcher(request.seed, static_cast<std::uint32_t>(pass), count);
     const double spacing = std::sqrt(4 * pi / double(count));
-    const std::uint64_t blocks = (count + block_size - 1) / block_size;
+    const std::uint64_t blocks = (count + block_beams - 1) / block_beams;
     // One beam to edges for 8 launched, at least one to each wedge, or to as many wedges as there are rays in the pass.
     const std::uint64_t wedges = most_edges(request) > 0 ? scene.wedges.wedges.size() : 0;
     const std::uint64_t aimed = wedges == 0
                                     ? 0
                                     : std::min(wedges, count) * std::max<std::uint64_t>(1, count / (8 * wedges)),
-                        aimed_blocks = (aimed + aimed_block_size - 1) / aimed_block_size;
+                        aimed_blocks = (aimed + block_aims - 1) / block_aims;
     for (std::uint64_t group = 0; group < blocks + aimed_blocks && !(stop && *stop); group += blocks_at_a_time) {
       std::vector<BlockRecords> records(std::min(blocks_at_a_time, blocks + aimed_blocks - group));
       for_each_block(
@@ -149,8 +152,8 @@ Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, 
             Walker& walker = walkers[thread];
             walker.begin_block(spacing, records[place]);
             if (block >= blocks) {
-              const std::uint64_t first = (block - blocks) * aimed_block_size;
-              for (std::uint64_t i = first; i < std::min(aimed, first + aimed_block_size); ++i) {
+              const std::uint64_t first = (block - blocks) * block_aims, end = std::min(aimed, first + block_aims);
+              for (std::uint64_t i = launched_from(first); i < end; i += stride) {
                 const std::uint64_t wedge = aimed >= wedges ? i % wedges : (pass * aimed + i) % wedges;
                 const double along = (double(pass) + uniform4(request.seed, aim_stream, aimed >= wedges ? i : wedge,
                                                               std::uint32_t(pass))[0]) /
@@ -160,8 +163,8 @@ Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, 
               }
               return;
             }
-            const std::uint64_t end = std::min(count, (block + 1) * block_size);
-            for (std::uint64_t i = block * block_size; i < end; ++i)
+            const std::uint64_t end = std::min(count, (block + 1) * block_beams);
+            for (std::uint64_t i = launched_from(block * block_beams); i < end; i += stride)
               walker.walk(request.transmitters[transmitter].position, launcher.direction(i), pass << 40 | i);
           },
           stop);
@@ -170,7 +173,7 @@ Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, 
       merging = std::async(std::launch::async, merge_group, std::move(records), 1u << pass);
       if (progress) progress((double(pass) + double(group + done) / double(blocks + aimed_blocks)) / double(passes));
     }
-    all.rays += count;
+    all.rays += (count + stride - 1) / stride;
     if (progress) progress(double(pass + 1) / double(passes));
   }
   if (merging.valid()) merging.get();

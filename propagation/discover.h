@@ -47,6 +47,9 @@ struct Search {
   /// Per cell the power below which a path is negligible there; empty: none is. A beam whose estimate stays 10 dB below
   /// does not name the cell.
   std::vector<double> negligible;
+  /// Of the beams of each pass every `stride`-th is launched, as if the others were there: a sample of the whole
+  /// search.
+  std::uint64_t stride = 1;
 };
 
 /// Launches the plan's rays from transmitter `transmitter` in plan.request.passes passes.

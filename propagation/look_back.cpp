@@ -89,7 +89,7 @@ class Viewer {
 }  // namespace
 
 void look_back(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
-               const CoverageGrid& grid, Discovered& discovered, const std::atomic<bool>* stop) {
+               const CoverageGrid& grid, Discovered& discovered, const std::atomic<bool>* stop, std::uint64_t stride) {
   const PlanDescription& request = plan.request;
   std::vector<std::uint32_t> cells;
   for (std::uint32_t cell = 0; cell < grid.layout.size(); ++cell)
@@ -98,7 +98,7 @@ void look_back(const Scene& scene, const Tracer& tracer, const Plan& plan, std::
   const Viewer viewer(scene, tracer, plan, request.transmitters[transmitter].position, grid);
   const unsigned threads = request.threads ? request.threads : hardware_threads();
   const auto passes = static_cast<std::uint64_t>(request.passes);
-  const auto total = static_cast<std::uint64_t>(request.rays) / rays_per_beam;
+  const auto total = static_cast<std::uint64_t>(request.rays) / (rays_per_beam * stride);
   for (std::uint64_t pass = 0; pass < passes && !(stop && *stop); ++pass) {
     const std::uint64_t first = pass * total / passes, last = (pass + 1) * total / passes;
     std::vector<Views> views((last - first + beams_per_block - 1) / beams_per_block);

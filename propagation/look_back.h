@@ -15,8 +15,10 @@ namespace grimaldi {
 /// turn, directions uniform over the upper half; it reflects as often as the depth leaves room for an edge. Each face
 /// on its way that the transmitter does not see at that point makes a blocked path: the faces from there to the cell,
 /// its first leg (from the transmitter) blocked. The path itself need not exist (its mirror's point may lie beside the
-/// face); the ways around it (`detours`) may. Adds the blocked paths and their sequences to `discovered`.
+/// face); the ways around it (`detours`) may. Every `stride`-th beam is launched. Adds the blocked paths and their
+/// sequences to `discovered`.
 void look_back(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
-               const CoverageGrid& grid, Discovered& discovered, const std::atomic<bool>* stop);
+               const CoverageGrid& grid, Discovered& discovered, const std::atomic<bool>* stop,
+               std::uint64_t stride = 1);
 
 }  // namespace grimaldi

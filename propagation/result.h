@@ -70,18 +70,29 @@ struct BudgetRound {
 /// What ended the rounds: the accuracy was reached, the time was up, or there are no more rays.
 enum class BudgetEnd { accuracy, time, rays };
 
+/// What a run was told to cost before it began.
+struct Prediction {
+  double seconds = 0;              ///< wall time of finding and evaluating paths
+  double cpu_seconds = 0;          ///< the same, of all threads together
+  std::uint64_t memory_bytes = 0;  ///< largest memory of the program
+  double pilot_seconds = 0;        ///< wall time of finding this out
+};
+
 struct RunFigures {
   double wall_seconds = 0, cpu_seconds = 0, trace_seconds = 0;
   double discover_seconds = 0, merge_seconds = 0, grow_seconds = 0,
          evaluate_seconds = 0;  ///< wall time of the stages; merge is part of discover
+  double discover_cpu_seconds = 0, grow_cpu_seconds = 0, evaluate_cpu_seconds = 0;  ///< of all threads
   unsigned threads = 1;
   std::uint64_t peak_memory_bytes = 0;
   std::uint64_t rays = 0, segments = 0, shadow_rays = 0;
   std::uint64_t sequences = 0, sequence_cell_pairs = 0;
+  std::uint64_t seeds = 0;  ///< pairs named by beams or led around what blocks a path
   int passes = 0;
   FluxLedger flux;
   std::vector<BudgetRound> rounds;  ///< empty where the rays were given
   BudgetEnd ended_by = BudgetEnd::rays;
+  std::optional<Prediction> predicted;  ///< empty where none was worth its time
 };
 
 struct Result {

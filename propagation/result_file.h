@@ -27,6 +27,9 @@ void write_result(const std::filesystem::path& file, const Scene& scene, const P
 /// that are not UTF-8 become U+FFFD.
 std::string summary_json(const Plan& plan, const Result& result, const std::vector<std::string>& outputs);
 
+/// A prediction alone as JSON (UTF-8, one object), as summary.json has it under `predicted`.
+std::string prediction_json(const Prediction& predicted);
+
 /// Writes `text` to `file` under a temporary name and renames. Throws InputErrors if that fails.
 void write_text(const std::filesystem::path& file, const std::string& text);
 

@@ -16,21 +16,31 @@
 #include "propagation/path_search.h"
 #include "propagation/power_delay_profile.h"
 #include "propagation/refine.h"
+#include "propagation/run_sample.h"
 
 namespace grimaldi {
 namespace {
 
-/// Adds the wall time of its life to a figure.
+/// Adds the wall time of its life to a figure, and the processors' time to another if that is given.
 class StageClock {
  public:
-  explicit StageClock(double& seconds) : seconds_(seconds), start_(std::chrono::steady_clock::now()) {}
-  ~StageClock() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  explicit StageClock(double& seconds, double* cpu_seconds = nullptr)
+      : seconds_(seconds),
+        cpu_seconds_(cpu_seconds),
+        start_(std::chrono::steady_clock::now()),
+        cpu_start_(std::clock()) {}
+  ~StageClock() {
+    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    if (cpu_seconds_ != nullptr) *cpu_seconds_ += double(std::clock() - cpu_start_) / CLOCKS_PER_SEC;
+  }
   StageClock(const StageClock&) = delete;
   StageClock& operator=(const StageClock&) = delete;
 
  private:
   double& seconds_;
+  double* cpu_seconds_;
   std::chrono::steady_clock::time_point start_;
+  std::clock_t cpu_start_;
 };
 
 std::uint64_t peak_memory() {
@@ -48,10 +58,15 @@ void add_flux(FluxLedger& ledger, const FluxLedger& sums, double share) {
   ledger.cut_by_depth += share * sums.cut_by_depth / sums.launched;
 }
 
-}  // namespace
+/// The plan with its rays divided by `stride`.
+Plan thinned(Plan plan, std::uint64_t stride) {
+  plan.request.rays = std::max(1.0, plan.request.rays / double(stride));
+  return plan;
+}
 
-Result simulate(const Scene& scene, const Tracer& tracer, const Plan& asked, const ProgressReport& progress,
-                const std::atomic<bool>* stop) {
+/// A run of one beam in `stride` of each pass, to the cells of `ready` or, if that is null, of the plan.
+Result run(const Scene& scene, const Tracer& tracer, const Plan& asked, const CoverageGrid* ready, std::uint64_t stride,
+           const ProgressReport& progress, const std::atomic<bool>* stop) {
   // The published BSDF has no closed form at a point: its layer is sampled, and what is connected goes without edges.
   const bool sampled = asked.request.diffraction && asked.request.diffraction_model == DiffractionModel::fsd_published;
   Plan connected = asked;
@@ -68,7 +83,8 @@ Result simulate(const Scene& scene, const Tracer& tracer, const Plan& asked, con
     CoverageGrid grid;
     if (plan.request.coverage) {
       const StageClock grid_clock(figures.grow_seconds);
-      grid = make_coverage_grid(scene, plan);
+      grid = ready ? *ready : make_coverage_grid(scene, plan);
+      connected.grid = grid.layout;
       result.coverage = empty_map(plan, grid);
     }
     result.profiles = empty_profiles(plan);
@@ -88,8 +104,9 @@ Result simulate(const Scene& scene, const Tracer& tracer, const Plan& asked, con
         const int most = twice && search == 0 ? 1 : most_edges(plan.request);
         std::size_t first_seed = 0;
         {
-          const StageClock stage(figures.discover_seconds);
+          const StageClock stage(figures.discover_seconds, &figures.discover_cpu_seconds);
           Search wanted;
+          wanted.stride = stride;
           if (twice) (search == 0 ? wanted.most_edges : wanted.fewest_edges) = search + 1;
           if (search == 1) {
             const double share = effort_of(plan.request).negligible_share;
@@ -102,13 +119,13 @@ Result simulate(const Scene& scene, const Tracer& tracer, const Plan& asked, con
             first_seed = discovered.append(found);
         }
         if (!plan.request.coverage || stopped()) continue;
-        const StageClock stage(figures.grow_seconds);
-        if (search == 0) look_back(scene, tracer, plan, t, grid, discovered, stop);
+        const StageClock stage(figures.grow_seconds, &figures.grow_cpu_seconds);
+        if (search == 0) look_back(scene, tracer, plan, t, grid, discovered, stop, stride);
         grow_and_lead_around(scene, tracer, plan, t, grid, first_seed, most, discovered, grown,
                              report("grow", from + 0.5 * size, from + size), stop);
       }
       if (plan.request.coverage && !stopped()) {
-        const StageClock stage(figures.grow_seconds);
+        const StageClock stage(figures.grow_seconds, &figures.grow_cpu_seconds);
         refine(scene, tracer, plan, t, grid, discovered, grown, stop);
       }
       figures.merge_seconds += discovered.merge_seconds;
@@ -117,19 +134,23 @@ Result simulate(const Scene& scene, const Tracer& tracer, const Plan& asked, con
       figures.sequences += discovered.sequences.size();
       figures.shadow_rays += grown.shadow_rays + discovered.shadow_rays;
       figures.sequence_cell_pairs += grown.pairs.size();
+      figures.seeds += discovered.seeds.size();
       add_flux(figures.flux, discovered.flux, 1 / double(transmitters));
       if (plan.request.coverage && !stopped()) {
-        const StageClock stage(figures.evaluate_seconds);
+        const StageClock stage(figures.evaluate_seconds, &figures.evaluate_cpu_seconds);
         evaluate(scene, tracer, plan, t, grid, discovered, grown.pairs, *result.coverage, report("evaluate", 0.8, 1),
                  stop);
         if (sampled && !stopped()) {
-          add_sampled_diffraction(scene, tracer, asked, t, grid, *result.coverage, stop);
-          figures.rays += static_cast<std::uint64_t>(plan.request.rays);
+          Plan fewer = thinned(asked, stride);
+          fewer.grid = grid.layout;
+          add_sampled_diffraction(scene, tracer, fewer, t, grid, *result.coverage, stop);
+          figures.rays += static_cast<std::uint64_t>(fewer.request.rays);
         }
       }
       if (!plan.request.receivers.empty() && !stopped()) {
-        const StageClock stage(figures.evaluate_seconds);
-        figures.shadow_rays += connect_receivers(scene, tracer, plan, t, discovered.sequences, result.profiles, stop);
+        const StageClock stage(figures.evaluate_seconds, &figures.evaluate_cpu_seconds);
+        figures.shadow_rays +=
+            connect_receivers(scene, tracer, thinned(plan, stride), t, discovered.sequences, result.profiles, stop);
       }
     }
   }
@@ -143,6 +164,18 @@ Result simulate(const Scene& scene, const Tracer& tracer, const Plan& asked, con
   figures.peak_memory_bytes = peak_memory();
   figures.cpu_seconds = double(std::clock()) / CLOCKS_PER_SEC;
   return result;
+}
+
+}  // namespace
+
+Result simulate(const Scene& scene, const Tracer& tracer, const Plan& plan, const ProgressReport& progress,
+                const std::atomic<bool>* stop) {
+  return run(scene, tracer, plan, nullptr, 1, progress, stop);
+}
+
+RunFigures simulate_sample(const Scene& scene, const Tracer& tracer, const Plan& plan, const CoverageGrid& cells,
+                           std::uint64_t stride, const std::atomic<bool>* stop) {
+  return run(scene, tracer, plan, &cells, stride, {}, stop).figures;
 }
 
 }  // namespace grimaldi

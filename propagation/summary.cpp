@@ -33,6 +33,13 @@ nlohmann::ordered_json budget_json(const Plan& plan, const RunFigures& run) {
   return budget;
 }
 
+nlohmann::ordered_json predicted_json(const Prediction& told) {
+  return {{"trace_seconds", told.seconds},
+          {"cpu_seconds", told.cpu_seconds},
+          {"peak_memory_bytes", told.memory_bytes},
+          {"seconds_to_predict", told.pilot_seconds}};
+}
+
 }  // namespace
 
 MapFigures map_figures(const Plan& plan, const CoverageMap& map) {
@@ -82,6 +89,8 @@ MapFigures map_figures(const Plan& plan, const CoverageMap& map) {
   return figures;
 }
 
+std::string prediction_json(const Prediction& predicted) { return predicted_json(predicted).dump(2) + "\n"; }
+
 std::string summary_json(const Plan& plan, const Result& result, const std::vector<std::string>& outputs) {
   const RunFigures& run = result.figures;
   const MapFigures map = result.coverage ? map_figures(plan, *result.coverage) : MapFigures{};
@@ -96,6 +105,7 @@ std::string summary_json(const Plan& plan, const Result& result, const std::vect
   summary["wall_seconds"] = run.wall_seconds;
   summary["cpu_seconds"] = run.cpu_seconds;
   summary["trace_seconds"] = run.trace_seconds;
+  if (run.predicted) summary["predicted"] = predicted_json(*run.predicted);
   summary["threads"] = run.threads;
   summary["peak_memory_bytes"] = run.peak_memory_bytes;
   summary["rays"] = run.rays;

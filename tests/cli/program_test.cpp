@@ -108,6 +108,26 @@ TEST_F(Program, JsonIsTheSummaryAndNothingElse) {
   EXPECT_LE(summary["cells_asked"].get<int>(), summary["cells"].get<int>());
 }
 
+TEST_F(Program, PredictTellsTheCostAndRunsNothing) {
+  const Outcome json = run(small("coverage", {"--predict", "--json"}));
+  ASSERT_EQ(json.code, 0) << json.err;
+  const auto predicted = nlohmann::json::parse(json.out);
+  for (const char* key : {"trace_seconds", "cpu_seconds", "peak_memory_bytes", "seconds_to_predict"})
+    EXPECT_GT(predicted[key].get<double>(), 0) << key;
+  const Outcome text = run(small("compare", {"--predict"}));
+  ASSERT_EQ(text.code, 0) << text.err;
+  EXPECT_NE(text.out.find("predicted"), std::string::npos) << text.out;
+  EXPECT_FALSE(exists("grimaldi.out"));
+}
+
+TEST_F(Program, PredictNeedsTheNumberOfRays) {
+  const Outcome outcome = run(
+      {"coverage", "--scene", "street-canyon", "--frequency", "1GHz", "--tx", "0,0,10", "--time", "5s", "--predict"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_NE(outcome.err.find("--rays"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(exists("grimaldi.out"));
+}
+
 TEST_F(Program, XarrayOpensTheResultWithBothEngines) {
   ASSERT_EQ(run({"coverage", "--scene", "demo-city", "--frequency", "3.5GHz,28GHz", "--tx", "8.5,21,27", "--rx",
                  "120,20,1.5", "--rays", "20000", "--depth", "2", "--cell-size", "20", "-o", "out"})
