@@ -150,7 +150,8 @@ bool UnfoldedSequence::descend(const Vec3& receiver, double& along1, double& alo
     // Positive definite unless the path runs along an edge.
     if (!(h11 > 0) || !(determinant > 1e-12 * h11 * h22)) return false;
     const double step1 = (h12 * g2 - h22 * g1) / determinant, step2 = (h12 * g1 - h11 * g2) / determinant;
-    if (std::max(std::abs(step1), std::abs(step2)) < last_step) {
+    // Beside a corner where the edges meet, small against the way between them too.
+    if (std::max(std::abs(step1), std::abs(step2)) < last_step * std::min(1.0, legs.middle)) {
       last_[0] = t1 + step1;
       last_[1] = t2 + step2;
       along1 = pair_.from1 + last_[0];

@@ -121,7 +121,8 @@ TEST(BothEnds, FindTheSameFromEither) {
   for (const int way : {0, 1}) {
     ASSERT_GT(found[way].size(), 40u);
     for (std::size_t i = 0; i < 30; ++i)
-      EXPECT_NE(std::find(found[1 - way].begin(), found[1 - way].end(), found[way][i]), found[1 - way].end()) << i;
+      EXPECT_NE(std::find(found[1 - way].begin(), found[1 - way].end(), found[way][i]), found[1 - way].end())
+          << testing::PrintToString(found[way][i]);
   }
 }
 

@@ -32,7 +32,7 @@ TEST_P(Exhaustive, NothingIsMissed) {
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
   Diagnostics diagnostics;
   const Scene scene = scene_of(read_scene_file(file, diagnostics), perfect_faces());
-  PlanDescription plan = point_to_point(WaveKind::radio, 3.5e9, quarter.transmitter, 3e5);
+  PlanDescription plan = point_to_point(WaveKind::radio, 3.5e9, quarter.transmitter, 1e5);
   plan.diffraction_model = DiffractionModel::utd;
   for (const Vec3& point : street_points(scene, quarter.half, quarter.points, 1)) add_receiver(plan, point);
   const ExhaustiveComparison run = compare_with_exhaustive_search(scene, plan);
