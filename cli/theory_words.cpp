@@ -123,6 +123,10 @@ std::string suite_words(const std::string& suite) {
        "The largest steps of the level are looked at with steps a hundredth as long: a slope is gone then, a jump is "
        "still there."},
       {"reciprocity", "Transmitter and receiver exchanged, one polarisation at both ends."},
+      {"exhaustive",
+       "The engine's search at random points of cities against one through all faces and all pairs of edges: what of "
+       "the "
+       "power by paths of at most two interactions it finds, class by class."},
       {"energy",
        "What diffraction takes from the light it must give to the shadow; what faces do not send back they let "
        "through."},

@@ -19,6 +19,14 @@ constexpr double last_step = 1e-5;
 /// Beyond an end of an edge its wave is kept while v_V is below this (physics: line 6 of the edge's law).
 constexpr double end_parameter_limit = 3;
 
+/// Bounding boxes only sort out; the ray decides.
+bool in_box(const Patch& patch, const Vec3& point) {
+  constexpr double slack = 0.01;
+  for (int axis = 0; axis < 3; ++axis)
+    if (point[axis] < patch.low[axis] - slack || point[axis] > patch.high[axis] + slack) return false;
+  return true;
+}
+
 Vec3 mirrored_direction(const Vec3& direction, const Patch& patch) {
   return direction - 2 * dot(direction, patch.normal) * patch.normal;
 }
@@ -34,6 +42,11 @@ double crossing(const Vec3& start, const Vec3& direction, const Vec3& a, const V
 
 Vec3 mirrored(const Vec3& point, const Patch& patch) {
   return point - 2 * (dot(point, patch.normal) - patch.offset) * patch.normal;
+}
+
+bool crosses_box(const Patch& patch, const Vec3& image, const Vec3& to) {
+  const double above = dot(patch.normal, to) - patch.offset, below = dot(patch.normal, image) - patch.offset;
+  return above * below < 0 && in_box(patch, to + (above / (above - below)) * (image - to));
 }
 
 UnfoldedSequence::UnfoldedSequence(const Scene& scene, const Vec3& source, std::span<const Interaction> interactions,
@@ -94,11 +107,21 @@ void UnfoldedSequence::begin_at(std::span<const double> along) {
 }
 
 bool UnfoldedSequence::two_fermat_points(const Vec3& receiver, double& along1, double& along2) {
-  if (!has_last_) {
-    // Each edge for itself between the ends.
-    const double along = crossing(edges_[0].start, edges_[0].direction, image_, receiver);
-    look_from(along, crossing(edges_[1].start, edges_[1].direction, edges_[0].point(along), receiver));
-  }
+  if (has_last_ && descend(receiver, along1, along2)) return true;
+  // Each edge for itself between the ends, from the source on; where that falls into the corner of two edges that meet,
+  // from the receiver on.
+  const auto between = [&](std::size_t edge, const Vec3& a, const Vec3& b) {
+    return crossing(edges_[edge].start, edges_[edge].direction, a, b);
+  };
+  const double first = between(0, image_, receiver);
+  look_from(first, between(1, edges_[0].point(first), receiver));
+  if (descend(receiver, along1, along2)) return true;
+  const double last = between(1, image_, receiver);
+  look_from(between(0, image_, edges_[1].point(last)), last);
+  return has_last_ = descend(receiver, along1, along2);
+}
+
+bool UnfoldedSequence::descend(const Vec3& receiver, double& along1, double& along2) {
   const UnfoldedEdge& second = edges_[1];
   const Vec3 way = receiver - second.point(pair_.from2);
   const double z1 = pair_.source_along, r1 = pair_.source_off;
@@ -129,7 +152,8 @@ bool UnfoldedSequence::two_fermat_points(const Vec3& receiver, double& along1, d
     // Positive definite unless the path runs along an edge.
     if (!(h11 > 0) || !(determinant > 1e-12 * h11 * h22)) return false;
     const double step1 = (h12 * g2 - h22 * g1) / determinant, step2 = (h12 * g1 - h11 * g2) / determinant;
-    if (std::max(std::abs(step1), std::abs(step2)) < last_step) {
+    // Beside a corner where the edges meet, small against the way between them too.
+    if (std::max(std::abs(step1), std::abs(step2)) < last_step * std::min(1.0, legs.middle)) {
       last_[0] = t1 + step1;
       last_[1] = t2 + step2;
       along1 = pair_.from1 + last_[0];
@@ -295,9 +319,7 @@ bool UnfoldedSequence::mirror_points(std::size_t first, std::size_t last, PathGe
     const double below = dot(patch.normal, images[i]) - patch.offset;
     if (!(above * below < 0)) return false;
     const Vec3 point = to + (above / (above - below)) * (images[i] - to);
-    constexpr double slack = 0.01;  // bounding boxes only sort out; the ray decides
-    for (int axis = 0; axis < 3 && !in_planes; ++axis)
-      if (point[axis] < patch.low[axis] - slack || point[axis] > patch.high[axis] + slack) return false;
+    if (!in_planes && !in_box(patch, point)) return false;
     geometry.points[i + 1] = to = point;
   }
   return true;

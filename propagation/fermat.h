@@ -76,6 +76,7 @@ class UnfoldedSequence {
   bool fermat_points(const Vec3& receiver, std::array<double, max_edges>& along);
   void look_from(double along1, double along2);
   bool two_fermat_points(const Vec3& receiver, double& along1, double& along2);
+  bool descend(const Vec3& receiver, double& along1, double& along2);
   bool passage(std::size_t i, const Vec3& before, double along, const Vec3& after, double wavelength,
                EdgePassage& out) const;
   bool solve(const Vec3& receiver, double wavelength, PathGeometry& geometry, bool in_planes);
@@ -103,6 +104,10 @@ class UnfoldedSequence {
 /// Formula: (z_a r_b + z_b r_a)/(r_a + r_b), axial and radial coordinates about the line (its two half-planes
 /// unfolded).
 double crossing(const Vec3& start, const Vec3& direction, const Vec3& a, const Vec3& b);
+
+/// True if the straight way from `image` to `to`, on the other side of the patch's plane, crosses its bounding box and
+/// 1 cm about it: the mirror's point may lie on the patch.
+bool crosses_box(const Patch& patch, const Vec3& image, const Vec3& to);
 
 /// `point` mirrored in the plane of `patch`.
 Vec3 mirrored(const Vec3& point, const Patch& patch);

@@ -36,8 +36,8 @@ void grow_and_lead_around(const Scene& scene, const Tracer& tracer, const Plan& 
 }
 
 SequenceTable search_for_point(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
-                               const Vec3& point, std::span<const Arrival> arrivals, const SequenceTable& known,
-                               std::uint64_t& shadow_rays, const std::atomic<bool>* stop) {
+                               const EndView& from_transmitter, const Vec3& point, std::span<const Arrival> arrivals,
+                               const SequenceTable& known, std::uint64_t& shadow_rays, const std::atomic<bool>* stop) {
   const PlanDescription& request = plan.request;
   CoverageGrid spot;
   spot.layout.nx = spot.layout.ny = 1;
@@ -69,6 +69,11 @@ SequenceTable search_for_point(const Scene& scene, const Tracer& tracer, const P
       add_second_edges(scene, tracer, plan, transmitter, point, effort_of(request).negligible_share * power,
                        here.sequences, shadow_rays, stop);
   for (const Pair& pair : grown.pairs) around.push_back(pair.sequence);
+  const EndView from_receiver = view_from(scene, tracer, plan, point, shadow_rays);
+  for (const std::uint32_t sequence :
+       add_from_both_ends(scene, tracer, plan, transmitter, from_transmitter, from_receiver, power, known,
+                          here.sequences, shadow_rays, stop))
+    around.push_back(sequence);
   for (const std::uint32_t sequence : around) {
     const auto interactions = here.sequences[sequence];
     PathGeometry geometry;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/blocks.h"
@@ -191,15 +192,17 @@ std::uint64_t connect_receivers(const Scene& scene, const Tracer& tracer, const 
                                 const SequenceTable& sequences, std::vector<ReceiverProfile>& profiles,
                                 const std::atomic<bool>* stop) {
   std::uint64_t shadow_rays = 0;
+  const Transmitter& source = plan.request.transmitters[transmitter];
+  std::optional<EndView> view;
+  if (most_edges(plan.request) > 0) view.emplace(view_from(scene, tracer, plan, source.position, shadow_rays));
   for (std::size_t r = 0; r < plan.request.receivers.size(); ++r) {
     const Receiver& receiver = plan.request.receivers[r];
-    const Transmitter& source = plan.request.transmitters[transmitter];
     std::vector<Arrival> arrivals;
     add_arrivals(scene, tracer, plan, source, receiver.position, sequences, arrivals, shadow_rays, stop);
     SequenceTable around;
-    if (most_edges(plan.request) > 0) {
-      around =
-          search_for_point(scene, tracer, plan, transmitter, receiver.position, arrivals, sequences, shadow_rays, stop);
+    if (view) {
+      around = search_for_point(scene, tracer, plan, transmitter, *view, receiver.position, arrivals, sequences,
+                                shadow_rays, stop);
       add_arrivals(scene, tracer, plan, source, receiver.position, around, arrivals, shadow_rays, stop);
     }
     if (stop && *stop) break;

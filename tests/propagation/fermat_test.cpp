@@ -272,6 +272,28 @@ TEST(Fermat, WarmStartChangesNothing) {
 }
 
 // Past the end of an edge its wave is kept while v_V < 3 and seen from the end itself.
+// Two rims of a roof meet in a corner; the path passes both just beside it. Newton from one end alone falls into the
+// corner, where the length has a kink, and finds nothing.
+TEST(Fermat, BesideTheCornerOfTwoEdges) {
+  Stage stage;
+  const Interaction first = stage.edge({-53, 87.5, 17}, {0, 1, 0}, 9.5);
+  const Interaction second = stage.edge({-77, 97, 17}, {-1, 0, 0}, 24);
+  const Vec3 a{-41, 8, 26}, b{-60, 60, 1.5};
+  PathGeometry there, back;
+  ASSERT_TRUE(stage.solve(a, {first, second}, b, there));
+  ASSERT_TRUE(stage.solve(b, {second, first}, a, back));
+  EXPECT_NEAR(there.length, back.length, 1e-9);
+  const auto over = [&](double t) {
+    const Vec3 point = stage.wedge(first).point(t);
+    const auto rest = [&](double u) {
+      const Vec3 next = stage.wedge(second).point(u);
+      return distance(point, next) + distance(next, b);
+    };
+    return distance(a, point) + rest(argmin(rest, 0, 48));
+  };
+  EXPECT_NEAR(there.length, over(argmin(over, 0, 19)), 1e-9);
+}
+
 TEST(Fermat, BeyondTheEnd) {
   Stage stage;
   const Interaction edge = stage.edge({0, 0, 0}, {0, 1, 0}, 5);

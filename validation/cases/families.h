@@ -33,6 +33,8 @@ Cases auto_cases();
 Cases walk_cases();
 /// The engine with transmitter and receiver exchanged.
 Cases reciprocity_cases();
+/// The engine's search for paths of two interactions against one through all faces and edges.
+Cases exhaustive_cases();
 /// Two edges in the engine: two screens against the double Fresnel integral, a flat roof against boundary elements, and
 /// what must not jump.
 Cases double_edge_cases();

@@ -1,0 +1,297 @@
+#include "propagation/both_ends.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+
+#include "core/blocks.h"
+#include "core/constants.h"
+#include "propagation/composite.h"
+#include "propagation/connect.h"
+#include "propagation/effort.h"
+#include "propagation/fermat.h"
+#include "propagation/field.h"
+#include "propagation/launcher.h"
+
+namespace grimaldi {
+namespace {
+
+/// The largest part between 0 and 1 that is neither dark nor split by a share known to be in view; its length is 0 if
+/// all is dark.
+struct Gap {
+  double from = 0, to = 0;
+  double length() const { return to - from; }
+};
+
+Gap largest_gap(const EdgeShadow& shadow, std::span<const double> lit) {
+  std::vector<Gap> gaps;
+  double begin = 0;
+  for (const auto& [from, to] : shadow.dark()) {
+    if (from > begin) gaps.push_back({begin, std::min(from, 1.0)});
+    begin = std::max(begin, to);
+  }
+  if (begin < 1) gaps.push_back({begin, 1});
+  Gap largest;
+  for (Gap gap : gaps) {
+    for (const double share : lit)
+      if (share > gap.from && share < gap.to) {
+        if (share - gap.from > largest.length()) largest = {gap.from, share};
+        gap.from = share;
+      }
+    if (gap.length() > largest.length()) largest = gap;
+  }
+  return largest;
+}
+
+/// Looks at a wedge until it is known to be dark, or for `most` rays and while parts longer than 1/16 are unknown once
+/// something of it was seen.
+void look_at(const Scene& scene, const Tracer& tracer, const Vec3& eye, const Wedge& wedge, EdgeShadow& shadow,
+             std::uint64_t& rays) {
+  constexpr std::size_t most = 64;
+  constexpr double fine = 1.0 / 16;
+  std::vector<double> lit;  // ascending
+  for (std::size_t i = 0; i < most; ++i) {
+    const Gap gap = largest_gap(shadow, lit);
+    if (gap.length() == 0 || (!lit.empty() && gap.length() < fine)) return;
+    const double share = 0.5 * (gap.from + gap.to);
+    const Vec3 to = wedge.point(share * wedge.length) + 3 * tracer.surface_gap() * wedge.bisector();
+    const double length = distance(eye, to);
+    ++rays;
+    const Hit hit = tracer.nearest(eye, (to - eye) / length);
+    if (hit.triangle != no_index && hit.distance < length) shadow.add(scene, hit.triangle);
+    if (!shadow.is_dark(share)) lit.insert(std::upper_bound(lit.begin(), lit.end(), share), share);
+  }
+}
+
+/// True if the solid of `wedge` hides it from both ends of `other`, and so from all of it.
+bool hides_from(const Wedge& wedge, const Wedge& other, double gap) {
+  for (const Vec3& end : {other.start, other.end()}) {
+    const Vec3 way = end - wedge.start;
+    if (dot(way, wedge.normal0) > -gap || dot(way, wedge.normaln()) > -gap) return false;
+  }
+  return true;
+}
+
+/// What all paths together may bring that are not asked for, as a share of the power.
+constexpr double negligible_rest = 1e-3;
+
+/// A path that may arrive: its sequence in a block's list, and what it can bring.
+struct Candidate {
+  double bound;
+  std::uint32_t first, count;
+};
+
+struct Block {
+  std::vector<Candidate> candidates;
+  std::vector<Interaction> interactions;
+};
+
+class Joiner {
+ public:
+  Joiner(const Scene& scene, const Tracer& tracer, const Plan& plan, const EndView& from, const EndView& to,
+         const SequenceTable& known, const SequenceTable& sequences)
+      : scene_(scene),
+        plan_(plan),
+        from_(from),
+        to_(to),
+        known_(known),
+        sequences_(sequences),
+        gap_(tracer.surface_gap()),
+        wavelength_(2 * pi / plan.wavenumber.front()) {}
+
+  /// An edge in view of both.
+  void one_edge(const EndView::Edge& edge, Block& out) const {
+    if (const EndView::Edge* other = to_.edge_of(edge.wedge)) {
+      const double share = passed_at(edge.wedge, from_.eye(), to_.eye());
+      if (!edge.shadow.is_dark(share) && !other->shadow.is_dark(share)) propose({}, {edge.wedge}, {}, out);
+    }
+  }
+  /// An edge, then the mirrors of the receiver.
+  void before_mirrors(const EndView::Edge& edge, Block& out) const {
+    for (const EndView::Mirror& mirror : to_.mirrors())
+      if (in_mirror(edge, from_.eye(), mirror)) propose({}, {edge.wedge}, mirror.patches, out);
+  }
+  /// The mirrors of the transmitter, then an edge.
+  void behind_mirrors(const EndView::Edge& edge, Block& out) const {
+    for (const EndView::Mirror& mirror : from_.mirrors())
+      if (in_mirror(edge, to_.eye(), mirror)) propose(mirror.patches, {edge.wedge}, {}, out);
+  }
+  void two_edges(const EndView::Edge& first, Block& out) const {
+    const Wedge& wedge = scene_.wedges.wedges[first.wedge];
+    for (const EndView::Edge& second : to_.edges()) {
+      const Wedge& other = scene_.wedges.wedges[second.wedge];
+      if (second.wedge == first.wedge || hides_from(wedge, other, gap_) || hides_from(other, wedge, gap_)) continue;
+      propose({}, {first.wedge, second.wedge}, {}, out, &first, &second);
+    }
+  }
+
+ private:
+  /// Where the shortest way from a to b over the line of the wedge passes it, as a share of its length from 0 to 1.
+  double passed_at(std::uint32_t number, const Vec3& a, const Vec3& b) const {
+    const Wedge& wedge = scene_.wedges.wedges[number];
+    return std::clamp(crossing(wedge.start, wedge.direction, a, b) / wedge.length, 0.0, 1.0);
+  }
+
+  /// True if the way from `eye` over the edge to the image in the mirror meets the last of its faces, the edge in view.
+  bool in_mirror(const EndView::Edge& edge, const Vec3& eye, const EndView::Mirror& mirror) const {
+    const double share = passed_at(edge.wedge, eye, mirror.image);
+    const Wedge& wedge = scene_.wedges.wedges[edge.wedge];
+    return crosses_box(scene_.patches.patches[mirror.patches.back()], mirror.image,
+                       wedge.point(share * wedge.length)) &&
+           !edge.shadow.is_dark(share);
+  }
+
+  /// Faces from the transmitter, edges, faces from the receiver on.
+  void propose(std::span<const Interaction> before, std::initializer_list<std::uint32_t> wedges,
+               std::span<const Interaction> after, Block& out, const EndView::Edge* first = nullptr,
+               const EndView::Edge* second = nullptr) const {
+    std::array<Interaction, max_depth> held;
+    auto end = std::copy(before.begin(), before.end(), held.begin());
+    for (const std::uint32_t wedge : wedges) *end++ = edge_interaction(wedge);
+    end = std::reverse_copy(after.begin(), after.end(), end);
+    const std::span<const Interaction> interactions(held.begin(), end);
+    PathGeometry geometry;
+    UnfoldedSequence unfolded(scene_, from_.eye(), interactions, &plan_.small_objects);
+    if (!unfolded.solve(to_.eye(), wavelength_, geometry)) return;
+    if (first && (dark(*first, geometry.edges[0]) || dark(*second, geometry.edges[1]))) return;
+    const SequenceHash hash = hash_of(interactions);
+    if (known_.find(hash) != SequenceTable::no_sequence || sequences_.find(hash) != SequenceTable::no_sequence) return;
+    out.candidates.push_back({power_bound(scene_, plan_, interactions, geometry),
+                              static_cast<std::uint32_t>(out.interactions.size()),
+                              static_cast<std::uint32_t>(interactions.size())});
+    out.interactions.insert(out.interactions.end(), interactions.begin(), interactions.end());
+  }
+
+  bool dark(const EndView::Edge& edge, const EdgePassage& passage) const {
+    return edge.shadow.is_dark(std::clamp(passage.along / scene_.wedges.wedges[edge.wedge].length, 0.0, 1.0));
+  }
+
+  const Scene& scene_;
+  const Plan& plan_;
+  const EndView &from_, &to_;
+  const SequenceTable &known_, &sequences_;
+  const double gap_, wavelength_;
+};
+
+}  // namespace
+
+EndView::EndView(const Scene& scene, const Tracer& tracer, const Vec3& eye, int most_faces, std::uint64_t beams,
+                 std::uint64_t& rays)
+    : eye_(eye) {
+  look_for_edges(scene, tracer, rays);
+  if (most_faces > 0) look_for_faces(scene, tracer, most_faces, beams, rays);
+}
+
+const EndView::Edge* EndView::edge_of(std::uint32_t wedge) const {
+  const auto found = std::lower_bound(edges_.begin(), edges_.end(), wedge,
+                                      [](const Edge& edge, std::uint32_t w) { return edge.wedge < w; });
+  return found != edges_.end() && found->wedge == wedge ? &*found : nullptr;
+}
+
+void EndView::look_for_edges(const Scene& scene, const Tracer& tracer, std::uint64_t& rays) {
+  for (std::uint32_t w = 0; w < scene.wedges.wedges.size(); ++w) {
+    EdgeShadow shadow(scene.wedges.wedges[w], eye_, tracer.surface_gap());
+    if (shadow.hidden_by_itself()) continue;
+    if (!shadow.end_on()) look_at(scene, tracer, eye_, scene.wedges.wedges[w], shadow, rays);
+    if (!shadow.all_dark()) edges_.push_back({w, std::move(shadow)});
+  }
+}
+
+void EndView::look_for_faces(const Scene& scene, const Tracer& tracer, int most_faces, std::uint64_t beams,
+                             std::uint64_t& rays) {
+  SequenceTable met;
+  std::array<Interaction, max_depth> held;
+  const auto walk = [&](Vec3 direction) {
+    Vec3 origin = eye_;
+    SequenceHash hash = empty_sequence;
+    std::uint32_t leave = no_index;
+    for (int count = 0; count < most_faces; ++count) {
+      ++rays;
+      const Hit hit = tracer.nearest(origin, direction, leave);
+      if (hit.triangle == no_index) return;
+      held[static_cast<std::size_t>(count)] = leave = scene.patches.triangle_patch[hit.triangle];
+      hash = extended(hash, leave);
+      met.enter(hash, {held.data(), static_cast<std::size_t>(count) + 1});
+      const Vec3& normal = scene.patches.patches[leave].normal;
+      origin = origin + hit.distance * direction;
+      direction = direction - 2 * dot(direction, normal) * normal;
+    }
+  };
+  const Launcher launcher(0, 0, beams);
+  for (std::uint64_t i = 0; i < beams; ++i) walk(launcher.direction(i));
+  for (const auto& corners : scene.triangles) {
+    const Vec3 way = (scene.vertices[corners[0]] + scene.vertices[corners[1]] + scene.vertices[corners[2]]) / 3 - eye_;
+    if (norm(way) > tracer.surface_gap()) walk(normalized(way));
+  }
+  for (std::size_t s = 0; s < met.size(); ++s) {
+    Mirror& mirror = mirrors_.emplace_back();
+    mirror.image = eye_;
+    mirror.patches.assign(met[s].begin(), met[s].end());
+    for (const Interaction patch : mirror.patches) mirror.image = mirrored(mirror.image, scene.patches.patches[patch]);
+  }
+}
+
+EndView view_from(const Scene& scene, const Tracer& tracer, const Plan& plan, const Vec3& eye, std::uint64_t& rays) {
+  const int most_faces =
+      plan.request.reflection ? std::clamp(plan.request.max_reflections, 0, plan.request.depth - 1) : 0;
+  const auto beams = static_cast<std::uint64_t>(std::clamp(plan.request.rays / 16, 4096.0, 65536.0));
+  return {scene, tracer, eye, most_faces, beams, rays};
+}
+
+std::vector<std::uint32_t> add_from_both_ends(const Scene& scene, const Tracer& tracer, const Plan& plan,
+                                              std::size_t transmitter, const EndView& from_transmitter,
+                                              const EndView& from_receiver, double power, const SequenceTable& known,
+                                              SequenceTable& sequences, std::uint64_t& shadow_rays,
+                                              const std::atomic<bool>* stop) {
+  const Joiner joiner(scene, tracer, plan, from_transmitter, from_receiver, known, sequences);
+  const auto &first = from_transmitter.edges(), &last = from_receiver.edges();
+  constexpr std::size_t edges_per_block = 16;
+  const std::size_t edges = std::max(first.size(), last.size());
+  std::vector<Block> blocks((edges + edges_per_block - 1) / edges_per_block);
+  for_each_block(
+      blocks.size(), plan.request.threads,
+      [&](std::size_t number, unsigned) {
+        Block& block = blocks[number];
+        for (std::size_t i = number * edges_per_block; i < (number + 1) * edges_per_block; ++i) {
+          if (i < first.size()) {
+            joiner.one_edge(first[i], block);
+            joiner.before_mirrors(first[i], block);
+            if (plan.request.depth > 1 && most_edges(plan.request) > 1) joiner.two_edges(first[i], block);
+          }
+          if (i < last.size()) joiner.behind_mirrors(last[i], block);
+        }
+      },
+      stop);
+  struct Ranked {
+    double bound;
+    std::span<const Interaction> interactions;
+  };
+  std::vector<Ranked> ranked;
+  double left = 0;
+  for (const Block& block : blocks)
+    for (const Candidate& candidate : block.candidates) {
+      ranked.push_back({candidate.bound, {block.interactions.data() + candidate.first, candidate.count}});
+      left += candidate.bound;
+    }
+  std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) { return a.bound > b.bound; });
+  const double share = std::min(negligible_rest, effort_of(plan.request).negligible_share);
+  const Transmitter& source = plan.request.transmitters[transmitter];
+  std::vector<std::array<std::complex<double>, 2>> field(plan.bands());
+  std::vector<std::uint32_t> added;
+  for (const Ranked& candidate : ranked) {
+    if (left <= share * power || (stop && *stop)) break;
+    left -= candidate.bound;
+    PathGeometry geometry;
+    UnfoldedSequence unfolded(scene, source.position, candidate.interactions, &plan.small_objects);
+    if (!unfolded.solve(from_receiver.eye(), 2 * pi / plan.wavenumber.front(), geometry) ||
+        !connected(scene, tracer, candidate.interactions, geometry, shadow_rays))
+      continue;
+    path_field(scene, plan, source, candidate.interactions, geometry, field);
+    power += received_power(field[0], Polarisation::both);
+    added.push_back(sequences.enter(hash_of(candidate.interactions), candidate.interactions));
+  }
+  return added;
+}
+
+}  // namespace grimaldi
