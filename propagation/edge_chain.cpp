@@ -187,15 +187,21 @@ Complex pair_wave(const EdgeTerm& first, const EdgeTerm& second, double coupling
 ChainStep first_step(const EdgeTerm& first, const EdgeTerm& second, double coupling) {
   const double slopes = first.slope * second.slope * first.sign * second.sign;
   const auto moments = double_edge_moments(first.wave, second.wave, signed_coupling(first, second, coupling));
-  return {first.value() * second.value(), slopes * moments.excess, 0, slopes * moments.second, 0};
+  const Complex mean = second.wave.slope / second.wave.wave;
+  return {first.value() * second.value() + slopes * moments.excess, 0,
+          slopes * (moments.second - mean * moments.excess), 0};
 }
 
 ChainStep next_step(const EdgeTerm& first, const EdgeTerm& second, double coupling) {
   const double ratio = first.slope > 4 * first.plain ? 4 : first.slope / first.plain;
   const double slopes = ratio * second.slope * second.sign;
   const auto moments = double_edge_moments(first.wave, second.wave, signed_coupling(first, second, coupling));
-  const Complex own = slopes / first.wave.wave, linked = slopes / second_moment(first.wave);
-  return {second.value(), own * moments.excess, linked * moments.first, own * moments.second, linked * moments.both};
+  const Complex mean1 = first.wave.slope / first.wave.wave, mean2 = second.wave.slope / second.wave.wave;
+  const Complex own = slopes / first.wave.wave,
+                beyond = slopes / (second_moment(first.wave) - mean1 * first.wave.slope);
+  return {second.value() + own * moments.excess, beyond * (moments.first - mean1 * moments.excess),
+          own * (moments.second - mean2 * moments.excess),
+          beyond * (moments.both - mean1 * moments.second - mean2 * (moments.first - mean1 * moments.excess))};
 }
 
 std::uint32_t grazed_face(const Scene& scene, const EdgePassage& before, const EdgePassage& here) {

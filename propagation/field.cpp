@@ -116,6 +116,17 @@ class EdgeFaces {
   Dyadic face0_{}, facen_{};
 };
 
+/// The two components of a wave in the cone frame of an edge (sound: pressure, 0).
+using Pair = std::array<Complex, 2>;
+
+/// Adds what a wave becomes at the next edge of a chain.
+void add(const ChainStep& step, const ChainWave<Pair>& wave, ChainWave<Pair>& sum) {
+  for (std::size_t p = 0; p < 2; ++p) {
+    sum.whole[p] += step.whole * wave.whole[p] + step.slope * wave.slope[p];
+    sum.slope[p] += step.slope_from_whole * wave.whole[p] + step.slope_from_slope * wave.slope[p];
+  }
+}
+
 }  // namespace
 
 double power_bound(const Scene& scene, const Plan& plan, std::span<const Interaction> interactions,
@@ -200,7 +211,7 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
               w.x *= r.te;
           };
           mirror(wave[a].whole);
-          if (edge_number > 1) mirror(wave[a].plain), mirror(wave[a].moment);
+          if (edge_number > 1) mirror(wave[a].slope);
         }
         continue;
       }
@@ -226,12 +237,9 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
       const auto out_of_frame = [&](const std::array<Complex, 2>& w) {
         return radio ? combine(w[0], out.beta, w[1], out.phi) : ComplexVec3{w[0], 0.0, 0.0};
       };
-      using Pair = std::array<Complex, 2>;
       std::array<ChainWave<Pair>, max_terms> arriving;
-      for (std::size_t a = 0; a < waves; ++a) {
-        arriving[a].whole = in_frame(wave[a].whole);
-        if (edge_number > 1) arriving[a].plain = in_frame(wave[a].plain), arriving[a].moment = in_frame(wave[a].moment);
-      }
+      for (std::size_t a = 0; a < waves; ++a)
+        arriving[a] = {in_frame(wave[a].whole), edge_number > 1 ? in_frame(wave[a].slope) : Pair{}};
       // Per term: all that arrives, through its face. A first edge leaves its factors to the pairs with the second.
       std::array<ChainWave<Pair>, max_terms> leaving{};
       for (std::size_t t = 0; t < terms.count; ++t) {
@@ -239,21 +247,11 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
         ChainWave<Pair> sum{};
         for (std::size_t a = 0; a < waves; ++a) {
           const ChainWave<Pair>& w = arriving[a];
-          if (edges > 2 && edge_number > 0) {
+          if (edges > 2 && !first) {
             const double coupling = chain.coupling[edge_number - 1];
-            const bool second = edge_number == 1;
-            const ChainStep step =
-                second ? first_step(before.term[a], term, coupling) : next_step(before.term[a], term, coupling);
-            for (std::size_t p = 0; p < 2; ++p) {
-              const Complex by_coupling =
-                  second ? step.excess * w.whole[p] : step.excess * w.plain[p] + step.linked * w.moment[p];
-              const Complex plain = step.plain * w.whole[p];
-              sum.whole[p] += plain + by_coupling;
-              if (last) continue;
-              sum.plain[p] += plain;
-              sum.moment[p] +=
-                  second ? step.moment * w.whole[p] : step.moment * w.plain[p] + step.moment_again * w.moment[p];
-            }
+            add(edge_number == 1 ? first_step(before.term[a], term, coupling)
+                                 : next_step(before.term[a], term, coupling),
+                w, sum);
             continue;
           }
           Complex factor = 1;
@@ -271,14 +269,12 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
         };
         leave(sum.whole, leaving[last ? 0 : t].whole);
         if (first || last) continue;
-        leave(sum.plain, leaving[t].plain);
-        leave(sum.moment, leaving[t].moment);
+        leave(sum.slope, leaving[t].slope);
       }
       waves = last ? 1 : terms.count;
       for (std::size_t a = 0; a < waves; ++a) {
         wave[a].whole = out_of_frame(leaving[a].whole);
-        if (!first && !last)
-          wave[a].plain = out_of_frame(leaving[a].plain), wave[a].moment = out_of_frame(leaving[a].moment);
+        if (!first && !last) wave[a].slope = out_of_frame(leaving[a].slope);
       }
       before = terms;
       came = leaves;
