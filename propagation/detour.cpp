@@ -66,7 +66,7 @@ std::uint32_t tile_pass(const Plan& plan, const GridLayout& layout, std::size_t 
 class Scout {
  public:
   Scout(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter, const CoverageGrid& grid,
-        const Discovered& discovered, const std::vector<double>& known, const PatchRims& rims)
+        const Effort& effort, const Discovered& discovered, const std::vector<double>& known, const PatchRims& rims)
       : scene_(scene),
         tracer_(tracer),
         plan_(plan),
@@ -75,7 +75,7 @@ class Scout {
         discovered_(discovered),
         known_(known),
         rims_(rims),
-        effort_(effort_of(plan.request)),
+        effort_(effort),
         wavelength_(2 * pi / plan.wavenumber.front()),
         unit_gain_(plan.request.kind == WaveKind::radio ? std::pow(wavelength_ / (4 * pi), 2) : 1 / (4 * pi)) {}
 
@@ -274,8 +274,8 @@ class Scout {
 }  // namespace
 
 Discovered detours(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
-                   const CoverageGrid& grid, const Discovered& discovered, const std::vector<double>& known,
-                   int most_edges, const std::atomic<bool>* stop) {
+                   const CoverageGrid& grid, const Effort& effort, const Discovered& discovered,
+                   const std::vector<double>& known, int most_edges, const std::atomic<bool>* stop) {
   Discovered found;
   std::vector<BlockedPath> paths;
   for (const BlockedPath& path : discovered.blocked) {
@@ -298,7 +298,7 @@ Discovered detours(const Scene& scene, const Tracer& tracer, const Plan& plan, s
   const unsigned threads = plan.request.threads ? plan.request.threads : hardware_threads();
   std::vector<Scout> scouts;
   for (unsigned i = 0; i < threads; ++i)
-    scouts.emplace_back(scene, tracer, plan, transmitter, grid, discovered, known, rims);
+    scouts.emplace_back(scene, tracer, plan, transmitter, grid, effort, discovered, known, rims);
   constexpr std::size_t paths_per_block = 256;
   std::vector<std::vector<Proposal>> proposals((paths.size() + paths_per_block - 1) / paths_per_block);
   for_each_block(

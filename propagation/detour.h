@@ -7,6 +7,7 @@
 
 #include "propagation/coverage_grid.h"
 #include "propagation/discover.h"
+#include "propagation/effort.h"
 #include "propagation/grow.h"
 #include "propagation/plan.h"
 #include "propagation/tracer.h"
@@ -24,7 +25,7 @@ namespace grimaldi {
 /// as found by one pass, so each tile belongs to a pass that is drawn. Inputs: `known` per cell, as in Grown;
 /// most_edges along a path. Blocked paths without room for one more edge are passed over.
 Discovered detours(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
-                   const CoverageGrid& grid, const Discovered& discovered, const std::vector<double>& known,
-                   int most_edges, const std::atomic<bool>* stop);
+                   const CoverageGrid& grid, const Effort& effort, const Discovered& discovered,
+                   const std::vector<double>& known, int most_edges, const std::atomic<bool>* stop);
 
 }  // namespace grimaldi

@@ -12,12 +12,10 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// What is added to U U for the terms' slopes.
-Complex coupled_part(const EdgeTerm& first, const EdgeTerm& second, double coupling) {
-  // Displacements of the apertures count towards the lit side: out along φ̂ of the first, of the source of the second
-  // against its φ̂. A lit term is that of the other side of its edge.
-  const double w = -coupling * first.lit_out * second.lit_in * first.sign * second.sign;
-  return first.sign * second.sign * double_edge_excess(first.wave, second.wave, w);
+/// The coupling of two terms. Displacements of the apertures count towards the lit side: out along φ̂ of the first, of
+/// the source of the second against its φ̂. A lit term is that of the other side of its edge.
+double signed_coupling(const EdgeTerm& first, const EdgeTerm& second, double coupling) {
+  return -coupling * first.lit_out * second.lit_in * first.sign * second.sign;
 }
 
 /// K = C⁻¹ by Gauss and Jordan; C is positive definite. Returns det K.
@@ -181,12 +179,29 @@ EdgeTerms edge_terms(DiffractionModel model, bool faces, const Wedge& wedge, con
 }
 
 Complex pair_wave(const EdgeTerm& first, const EdgeTerm& second, double coupling) {
-  return first.value() * second.value() + first.slope * second.slope * coupled_part(first, second, coupling);
+  const double slopes = first.slope * second.slope * first.sign * second.sign;
+  return first.value() * second.value() +
+         slopes * double_edge_excess(first.wave, second.wave, signed_coupling(first, second, coupling));
 }
 
-Complex continued_wave(const EdgeTerm& first, const EdgeTerm& second, double coupling) {
+ChainStep first_step(const EdgeTerm& first, const EdgeTerm& second, double coupling) {
+  const double slopes = first.slope * second.slope * first.sign * second.sign;
+  const auto moments = double_edge_moments(first.wave, second.wave, signed_coupling(first, second, coupling));
+  const Complex mean = second.wave.slope / second.wave.wave;
+  return {first.value() * second.value() + slopes * moments.excess, 0,
+          slopes * (moments.second - mean * moments.excess), 0};
+}
+
+ChainStep next_step(const EdgeTerm& first, const EdgeTerm& second, double coupling) {
   const double ratio = first.slope > 4 * first.plain ? 4 : first.slope / first.plain;
-  return second.value() + ratio * second.slope * coupled_part(first, second, coupling) / (first.sign * first.wave.wave);
+  const double slopes = ratio * second.slope * second.sign;
+  const auto moments = double_edge_moments(first.wave, second.wave, signed_coupling(first, second, coupling));
+  const Complex mean1 = first.wave.slope / first.wave.wave, mean2 = second.wave.slope / second.wave.wave;
+  const Complex own = slopes / first.wave.wave,
+                beyond = slopes / (second_moment(first.wave) - mean1 * first.wave.slope);
+  return {second.value() + own * moments.excess, beyond * (moments.first - mean1 * moments.excess),
+          own * (moments.second - mean2 * moments.excess),
+          beyond * (moments.both - mean1 * moments.second - mean2 * (moments.first - mean1 * moments.excess))};
 }
 
 std::uint32_t grazed_face(const Scene& scene, const EdgePassage& before, const EdgePassage& here) {

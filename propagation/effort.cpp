@@ -7,8 +7,10 @@
 
 namespace grimaldi {
 
-Effort effort_of(const PlanDescription& request) {
-  const double millions = request.rays / 1e6, e = std::sqrt(millions);
+namespace {
+
+Effort effort_of_rays(const PlanDescription& request, double rays) {
+  const double millions = rays / 1e6, e = std::sqrt(millions);
   const auto within = [](double value, int least, int most) {
     return static_cast<int>(std::clamp(value, double(least), double(most)));
   };
@@ -23,6 +25,15 @@ Effort effort_of(const PlanDescription& request) {
   effort.detours_tried = within(std::round(80 * millions), 6, 160);
   effort.detours_kept = within(std::round(20 * millions), 1, 40);
   return effort;
+}
+
+}  // namespace
+
+Effort effort_of(const PlanDescription& request) { return effort_of_rays(request, request.rays); }
+
+Effort effort_at_a_point(const PlanDescription& request) {
+  constexpr double least_rays = 1e6;
+  return effort_of_rays(request, std::max(double(request.rays), least_rays));
 }
 
 }  // namespace grimaldi

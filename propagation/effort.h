@@ -30,4 +30,9 @@ struct Effort {
 /// The effort of a run. Inputs: a valid description.
 Effort effort_of(const PlanDescription& request);
 
+/// The effort of the search for one receiver: that of 1e6 rays at least. Receivers are few, and a way that matters may
+/// not come and go with the place: with one way kept of several as good, the level steps by 2 dB around a house (case
+/// walks/around-a-house).
+Effort effort_at_a_point(const PlanDescription& request);
+
 }  // namespace grimaldi

@@ -11,6 +11,8 @@ namespace {
 
 /// Two vertices of a path nearer than this are one point: no direction between them.
 constexpr double shortest_leg = 1e-6;
+/// Between two edges: where they meet, the shortest way over both goes through their corner, and is no path of two.
+constexpr double shortest_between = 1e-3;
 /// Sine of the angle to an edge below which a ray runs along it.
 constexpr double along_edge = 1e-6;
 /// Newton's last step, m: convergence is quadratic, so what it leaves is far below a nanometre, and the length errs by
@@ -273,7 +275,9 @@ bool UnfoldedSequence::passage(std::size_t i, const Vec3& before, double along, 
   out.along = along;
   out.s_in = norm(in);
   out.s_out = norm(away);
-  if (out.s_in < shortest_leg || out.s_out < shortest_leg) return false;
+  const double shortest_in = i > 0 ? shortest_between : shortest_leg;
+  const double shortest_out = i + 1 < edge_count_ ? shortest_between : shortest_leg;
+  if (out.s_in < shortest_in || out.s_out < shortest_out) return false;
   const double cos_beta = dot(in, edge.direction) / out.s_in;
   out.sin_beta = std::sqrt(std::max(0.0, 1 - cos_beta * cos_beta));
   if (out.sin_beta < along_edge) return false;

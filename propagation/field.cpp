@@ -116,6 +116,17 @@ class EdgeFaces {
   Dyadic face0_{}, facen_{};
 };
 
+/// The two components of a wave in the cone frame of an edge (sound: pressure, 0).
+using Pair = std::array<Complex, 2>;
+
+/// Adds what a wave becomes at the next edge of a chain.
+void add(const ChainStep& step, const ChainWave<Pair>& wave, ChainWave<Pair>& sum) {
+  for (std::size_t p = 0; p < 2; ++p) {
+    sum.whole[p] += step.whole * wave.whole[p] + step.slope * wave.slope[p];
+    sum.slope[p] += step.slope_from_whole * wave.whole[p] + step.slope_from_slope * wave.slope[p];
+  }
+}
+
 }  // namespace
 
 double power_bound(const Scene& scene, const Plan& plan, std::span<const Interaction> interactions,
@@ -185,8 +196,8 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
   for (std::size_t band = 0; band < plan.bands(); ++band) {
     const double wavenumber = plan.wavenumber[band], wavelength = 2 * pi / wavenumber;
     // Between two edges there is one wave for each term of the edge before; at the ends of the path one in all.
-    std::array<ComplexVec3, max_terms> wave{ComplexVec3{launched.x, launched.y, launched.z}};
-    if (!radio) wave[0].x = 1;
+    std::array<ChainWave<ComplexVec3>, max_terms> wave;
+    wave[0].whole = radio ? ComplexVec3{launched.x, launched.y, launched.z} : ComplexVec3{1.0, 0.0, 0.0};
     std::size_t waves = 1, edge_number = 0;
     double weight = 1;
     EdgeTerms before;
@@ -196,10 +207,14 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
         const Patch& patch = scene.patches.patches[interactions[i]];
         const auto r = face_reflection(plan, patch.material, band, std::min(1.0, std::abs(dot(k[i], patch.normal))));
         for (std::size_t a = 0; a < waves; ++a) {
-          if (radio)
-            wave[a] = reflect(wave[a], k[i], patch.normal, r);
-          else
-            wave[a].x *= r.te;
+          const auto mirror = [&](ComplexVec3& w) {
+            if (radio)
+              w = reflect(w, k[i], patch.normal, r);
+            else
+              w.x *= r.te;
+          };
+          mirror(wave[a].whole);
+          if (edge_number > 1) mirror(wave[a].slope);
         }
         continue;
       }
@@ -219,40 +234,50 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
       const ConeFrame in(wedge.direction, k[i]), out(wedge.direction, k[i + 1]);
       std::optional<EdgeFaces> at_faces;
       if (faces) at_faces.emplace(plan, wedge, passage, band, k[i], k[i + 1], came, leaves);
-      std::array<std::array<Complex, 2>, max_terms> arriving;
-      for (std::size_t a = 0; a < waves; ++a) {
-        if (radio)
-          arriving[a] = {dot(wave[a], in.beta), dot(wave[a], in.phi)};
-        else
-          arriving[a] = {wave[a].x, 0.0};
-      }
+      const auto in_frame = [&](const ComplexVec3& w) -> std::array<Complex, 2> {
+        return radio ? std::array<Complex, 2>{dot(w, in.beta), dot(w, in.phi)} : std::array<Complex, 2>{w.x, 0.0};
+      };
+      const auto out_of_frame = [&](const std::array<Complex, 2>& w) {
+        return radio ? combine(w[0], out.beta, w[1], out.phi) : ComplexVec3{w[0], 0.0, 0.0};
+      };
+      std::array<ChainWave<Pair>, max_terms> arriving;
+      for (std::size_t a = 0; a < waves; ++a)
+        arriving[a] = {in_frame(wave[a].whole), edge_number > 1 ? in_frame(wave[a].slope) : Pair{}};
       // Per term: all that arrives, through its face. A first edge leaves its factors to the pairs with the second.
-      std::array<std::array<Complex, 2>, max_terms> leaving{};
+      std::array<ChainWave<Pair>, max_terms> leaving{};
       for (std::size_t t = 0; t < terms.count; ++t) {
         const EdgeTerm& term = terms.term[t];
-        std::array<Complex, 2> sum{};
+        ChainWave<Pair> sum{};
         for (std::size_t a = 0; a < waves; ++a) {
+          const ChainWave<Pair>& w = arriving[a];
+          if (edges > 2 && !first) {
+            const double coupling = chain.coupling[edge_number - 1];
+            add(edge_number == 1 ? first_step(before.term[a], term, coupling)
+                                 : next_step(before.term[a], term, coupling),
+                w, sum);
+            continue;
+          }
           Complex factor = 1;
           if (edge_number == 1)
             factor = pair_wave(before.term[a], term, chain.coupling[0]);
-          else if (!first)
-            factor = continued_wave(before.term[a], term, chain.coupling[edge_number - 1]);
           else if (last)
             factor = term.value();
-          sum[0] += factor * arriving[a][0];
-          sum[1] += factor * arriving[a][1];
+          for (std::size_t p = 0; p < 2; ++p) sum.whole[p] += factor * w.whole[p];
         }
-        const auto seen = faces ? at_faces->seen_at(term.boundary, sum) : sum;
         const Complex there = ends.of(term);
-        leaving[last ? 0 : t][0] += there * seen[0];
-        leaving[last ? 0 : t][1] += there * seen[1];
+        const auto leave = [&](const Pair& w, Pair& to) {
+          const auto seen = faces ? at_faces->seen_at(term.boundary, w) : w;
+          to[0] += there * seen[0];
+          to[1] += there * seen[1];
+        };
+        leave(sum.whole, leaving[last ? 0 : t].whole);
+        if (first || last) continue;
+        leave(sum.slope, leaving[t].slope);
       }
       waves = last ? 1 : terms.count;
       for (std::size_t a = 0; a < waves; ++a) {
-        if (radio)
-          wave[a] = combine(leaving[a][0], out.beta, leaving[a][1], out.phi);
-        else
-          wave[a].x = leaving[a][0];
+        wave[a].whole = out_of_frame(leaving[a].whole);
+        if (!first && !last) wave[a].slope = out_of_frame(leaving[a].slope);
       }
       before = terms;
       came = leaves;
@@ -263,9 +288,9 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
         weight * std::polar(chain.amplitude * scale * std::exp(-plan.attenuation[band] * geometry.length),
                             -std::remainder(wavenumber * geometry.length, 2 * pi));
     if (radio)
-      field[band] = {carrier * dot(wave[0], receiver.theta), carrier * dot(wave[0], receiver.phi)};
+      field[band] = {carrier * dot(wave[0].whole, receiver.theta), carrier * dot(wave[0].whole, receiver.phi)};
     else
-      field[band] = {carrier * wave[0].x, 0.0};
+      field[band] = {carrier * wave[0].whole.x, 0.0};
   }
 }
 

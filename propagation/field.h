@@ -20,7 +20,7 @@ namespace grimaldi {
 /// faces; the incident one alone where the run has no reflection; the images by the faces' Fresnel dyadics, the mean of
 /// the way there and the way back), weight of its ends T = H + Σ w UV for each term, w by `edge_end_share`, spreading
 /// of the whole chain of edges (`edge_chain`). Neighbouring edges: each pair of their terms by the double-edge wave,
-/// faces between them or not; of three and more the pairs of neighbours, chained (W₁₂W₂₃/W₂). Two edges of one face,
+/// faces between them or not; of three and more the couplings of neighbours, chained (`next_step`). Two edges of one face,
 /// along which the wave goes: half of the sum over all pairs, with the face's coefficient for that way at both edges:
 /// over a rigid face the wave counts once, of a soft one what is left is the coupling of the slopes. A way of length s
 /// to or from an edge meets a face at no less than 1/√(ks), the width of the transition at grazing incidence. Source:

@@ -36,7 +36,7 @@ struct BlockPairs {
 class Grower {
  public:
   Grower(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter, const CoverageGrid& grid,
-         const Discovered& discovered, const std::vector<double>& known)
+         const Effort& effort, const Discovered& discovered, const std::vector<double>& known)
       : scene_(scene),
         tracer_(tracer),
         plan_(plan),
@@ -45,7 +45,7 @@ class Grower {
         discovered_(discovered),
         known_(known),
         wavelength_(2 * pi / plan.wavenumber.front()),
-        negligible_share_(effort_of(plan.request).negligible_share) {}
+        negligible_share_(effort.negligible_share) {}
 
   /// One sequence from its seeds [first, last).
   void grow(std::uint32_t sequence, const Seed* first, const Seed* last, Workspace& work, BlockPairs& out) const {
@@ -253,14 +253,14 @@ std::vector<Seed> unasked(const std::vector<Seed>& seeds, std::size_t first, std
 }  // namespace
 
 void grow(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter, const CoverageGrid& grid,
-          const Discovered& discovered, std::size_t first_seed, Grown& grown,
+          const Effort& effort, const Discovered& discovered, std::size_t first_seed, Grown& grown,
           const std::function<void(double)>& progress, const std::atomic<bool>* stop) {
   const unsigned threads = plan.request.threads ? plan.request.threads : hardware_threads();
   grown.blocked.clear();
   const bool first_growth = grown.known.empty();
   grown.known.resize(grid.layout.size(), 0);
   std::vector<double>& known = grown.known;
-  const Grower grower(scene, tracer, plan, transmitter, grid, discovered, known);
+  const Grower grower(scene, tracer, plan, transmitter, grid, effort, discovered, known);
   std::vector<Workspace> spaces(threads);
   const auto learn = [&](std::size_t from) {
     for (std::size_t i = from; i < grown.pairs.size(); ++i) known[grown.pairs[i].cell] += grown.pairs[i].power;

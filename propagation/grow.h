@@ -9,6 +9,7 @@
 
 #include "propagation/coverage_grid.h"
 #include "propagation/discover.h"
+#include "propagation/effort.h"
 #include "propagation/plan.h"
 #include "propagation/tracer.h"
 
@@ -42,7 +43,7 @@ struct Grown {
 /// cell (a plan without the direct wave: to note where it is blocked). Cells
 /// wholly inside a solid are not asked. Independent of the number of threads.
 void grow(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter, const CoverageGrid& grid,
-          const Discovered& discovered, std::size_t first_seed, Grown& grown,
+          const Effort& effort, const Discovered& discovered, std::size_t first_seed, Grown& grown,
           const std::function<void(double)>& progress, const std::atomic<bool>* stop);
 
 }  // namespace grimaldi

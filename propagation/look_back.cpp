@@ -23,11 +23,13 @@ struct Views {
 
 class Viewer {
  public:
-  Viewer(const Scene& scene, const Tracer& tracer, const Plan& plan, const Vec3& source, const CoverageGrid& grid)
+  Viewer(const Scene& scene, const Tracer& tracer, const Plan& plan, const Vec3& source, const CoverageGrid& grid,
+         BackwardBeams beams)
       : scene_(scene),
         tracer_(tracer),
         source_(source),
         grid_(grid),
+        beams_(beams),
         seed_(plan.request.seed),
         most_faces_(std::min(plan.request.depth - 1, plan.request.max_reflections)) {}
 
@@ -36,7 +38,7 @@ class Viewer {
     const auto points = grid_.of(cell);
     const std::size_t point = point_with_edges(points, u[0]);
     Vec3 origin = grid_.layout.centre(cell) + points[point].offset;
-    const double rise = u[1], across = std::sqrt(1 - rise * rise);
+    const double rise = beams_ == BackwardBeams::upward ? u[1] : 2 * u[1] - 1, across = std::sqrt(1 - rise * rise);
     Vec3 direction{across * std::cos(2 * pi * u[2]), across * std::sin(2 * pi * u[2]), rise};
     std::array<Interaction, max_depth> faces;  // from the cell
     std::uint32_t leave = no_index;
@@ -82,6 +84,7 @@ class Viewer {
   const Tracer& tracer_;
   const Vec3 source_;
   const CoverageGrid& grid_;
+  const BackwardBeams beams_;
   const std::uint64_t seed_;
   const int most_faces_;
 };
@@ -89,13 +92,14 @@ class Viewer {
 }  // namespace
 
 void look_back(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
-               const CoverageGrid& grid, Discovered& discovered, const std::atomic<bool>* stop, std::uint64_t stride) {
+               const CoverageGrid& grid, BackwardBeams beams, Discovered& discovered, const std::atomic<bool>* stop,
+               std::uint64_t stride) {
   const PlanDescription& request = plan.request;
   std::vector<std::uint32_t> cells;
   for (std::uint32_t cell = 0; cell < grid.layout.size(); ++cell)
     if (!grid.of(cell).empty()) cells.push_back(cell);
   if (cells.empty() || !request.reflection || most_edges(request) == 0) return;
-  const Viewer viewer(scene, tracer, plan, request.transmitters[transmitter].position, grid);
+  const Viewer viewer(scene, tracer, plan, request.transmitters[transmitter].position, grid, beams);
   const unsigned threads = request.threads ? request.threads : hardware_threads();
   const auto passes = static_cast<std::uint64_t>(request.passes);
   const auto total = static_cast<std::uint64_t>(request.rays) / (rays_per_beam * stride);

@@ -15,18 +15,20 @@
 namespace grimaldi {
 
 void grow_and_lead_around(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
-                          const CoverageGrid& grid, std::size_t first_seed, int most_edges, Discovered& discovered,
-                          Grown& grown, const std::function<void(double)>& progress, const std::atomic<bool>* stop) {
+                          const CoverageGrid& grid, const Effort& effort, std::size_t first_seed, int most_edges,
+                          Discovered& discovered, Grown& grown, const std::function<void(double)>& progress,
+                          const std::atomic<bool>* stop) {
   // How many rounds there will be is not known: each is told as half of what was left.
   double done = 0;
   const auto report = [&](double share) {
     if (progress) progress(done + 0.5 * share * (1 - done));
   };
   for (bool more = true; more && !(stop && *stop); done += 0.5 * (1 - done)) {
-    grow(scene, tracer, plan, transmitter, grid, discovered, first_seed, grown, report, stop);
+    grow(scene, tracer, plan, transmitter, grid, effort, discovered, first_seed, grown, report, stop);
     auto& blocked = discovered.blocked;
     blocked.insert(blocked.end(), grown.blocked.begin(), grown.blocked.end());
-    const Discovered found = detours(scene, tracer, plan, transmitter, grid, discovered, grown.known, most_edges, stop);
+    const Discovered found =
+        detours(scene, tracer, plan, transmitter, grid, effort, discovered, grown.known, most_edges, stop);
     std::erase_if(blocked, [&](const BlockedPath& path) {
       return static_cast<int>(count_edges(discovered.sequences[path.sequence])) < most_edges;
     });
@@ -39,6 +41,7 @@ SequenceTable search_for_point(const Scene& scene, const Tracer& tracer, const P
                                const EndView& from_transmitter, const Vec3& point, std::span<const Arrival> arrivals,
                                const SequenceTable& known, std::uint64_t& shadow_rays, const std::atomic<bool>* stop) {
   const PlanDescription& request = plan.request;
+  const Effort effort = effort_at_a_point(request);
   CoverageGrid spot;
   spot.layout.nx = spot.layout.ny = 1;
   spot.layout.cell = 1;
@@ -51,7 +54,7 @@ SequenceTable search_for_point(const Scene& scene, const Tracer& tracer, const P
   Discovered here;
   here.sequences.enter(empty_sequence, {});
   here.blocked.push_back({0, 0, 0, 0});  // the direct wave; if nothing blocks it there is no way around
-  look_back(scene, tracer, plan, transmitter, spot, here, stop);
+  look_back(scene, tracer, plan, transmitter, spot, BackwardBeams::all_round, here, stop);
   for (std::size_t i = 0; i < known.size(); ++i)
     if (const auto size = static_cast<int>(known[i].size()); size > 0 && size < request.depth)
       here.seeds.push_back({here.sequences.enter(known.hash(i), known[i]), 0, ~0u, false, 0});
@@ -60,14 +63,13 @@ SequenceTable search_for_point(const Scene& scene, const Tracer& tracer, const P
   double power = 0;
   for (const Arrival& arrival : arrivals) power += received_power(arrival.field[0], Polarisation::both);
   grown.known = {power};
-  grow_and_lead_around(scene, tracer, plan, transmitter, spot, 0, most_edges(request), here, grown, {}, stop);
+  grow_and_lead_around(scene, tracer, plan, transmitter, spot, effort, 0, most_edges(request), here, grown, {}, stop);
   std::vector<std::pair<double, std::uint32_t>> strongest;  // bound, sequence
   for (const Arrival& arrival : arrivals)
     strongest.emplace_back(-power_bound(scene, plan, arrival.interactions, arrival.geometry),
                            here.sequences.enter(arrival.hash, arrival.interactions));
-  std::vector<std::uint32_t> around =
-      add_second_edges(scene, tracer, plan, transmitter, point, effort_of(request).negligible_share * power,
-                       here.sequences, shadow_rays, stop);
+  std::vector<std::uint32_t> around = add_second_edges(
+      scene, tracer, plan, transmitter, point, effort.negligible_share * power, here.sequences, shadow_rays, stop);
   for (const Pair& pair : grown.pairs) around.push_back(pair.sequence);
   const EndView from_receiver = view_from(scene, tracer, plan, point, shadow_rays);
   for (const std::uint32_t sequence :

@@ -21,8 +21,9 @@ namespace grimaldi {
 /// at most `most_edges` edges), grows what that found, and so on. Blocked paths of `most_edges` edges stay in
 /// `discovered`; the others are used up.
 void grow_and_lead_around(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
-                          const CoverageGrid& grid, std::size_t first_seed, int most_edges, Discovered& discovered,
-                          Grown& grown, const std::function<void(double)>& progress, const std::atomic<bool>* stop);
+                          const CoverageGrid& grid, const Effort& effort, std::size_t first_seed, int most_edges,
+                          Discovered& discovered, Grown& grown, const std::function<void(double)>& progress,
+                          const std::atomic<bool>* stop);
 
 /// The sequences, beyond the known ones, that lead around what blocks those on their way to one point, where the
 /// `arrivals` are the paths by the known ones, and those over edges beside free legs (`add_near_edges`) of all these,

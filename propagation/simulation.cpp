@@ -120,8 +120,8 @@ Result run(const Scene& scene, const Tracer& tracer, const Plan& asked, const Co
         }
         if (!plan.request.coverage || stopped()) continue;
         const StageClock stage(figures.grow_seconds, &figures.grow_cpu_seconds);
-        if (search == 0) look_back(scene, tracer, plan, t, grid, discovered, stop, stride);
-        grow_and_lead_around(scene, tracer, plan, t, grid, first_seed, most, discovered, grown,
+        if (search == 0) look_back(scene, tracer, plan, t, grid, BackwardBeams::upward, discovered, stop, stride);
+        grow_and_lead_around(scene, tracer, plan, t, grid, effort_of(plan.request), first_seed, most, discovered, grown,
                              report("grow", from + 0.5 * size, from + size), stop);
       }
       if (plan.request.coverage && !stopped()) {

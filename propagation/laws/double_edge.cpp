@@ -151,6 +151,34 @@ Complex double_edge_excess(const EdgeWave& first, const EdgeWave& second, double
   return orthant(q1, first.wave, q2, second.wave, coupling, root) / root - times(first.wave, second.wave);
 }
 
+DoubleEdgeMoments double_edge_moments(const EdgeWave& first, const EdgeWave& second, double coupling) {
+  GRIMALDI_EXPECT(std::abs(coupling) < 1);
+  const double q1 = first.argument, q2 = second.argument;
+  const double strength = std::abs(coupling), size = std::max(q1, least_argument) * std::max(q2, least_argument);
+  if (strength < 0.04 * size) {
+    const Complex step(0, 2 * coupling), half = 0.5 * times(step, step);
+    const auto a = further_integrals(first), b = further_integrals(second);
+    // The third term of a moment, in I₄, is left out.
+    return {double_edge_excess(first, second, coupling),
+            times(step, times(a[0], second.slope)) + times(half, times(a[1], b[0])),
+            times(step, times(first.slope, b[0])) + times(half, times(a[0], b[1])),
+            times(step, times(a[0], b[0])) + times(half, times(a[1], b[1]))};
+  }
+  const double rest = (1 - coupling) * (1 + coupling), root = std::sqrt(rest);
+  const Complex whole = orthant(q1, first.wave, q2, second.wave, coupling, root) / root;
+  const Complex unit(inverse_root, -inverse_root);
+  const auto moment = [&](const EdgeWave& of, const EdgeWave& other) {
+    return (times(unit, other.wave + coupling * of.wave) - (of.argument + coupling * other.argument) * whole) / rest;
+  };
+  const Complex moment1 = moment(first, second), moment2 = moment(second, first);
+  const Complex both =
+      (times(unit, second.slope) + times({0, -0.5 * coupling}, whole) - (q1 + coupling * q2) * moment2) / rest;
+  return {whole - times(first.wave, second.wave), moment1 - times(first.slope, second.wave),
+          moment2 - times(first.wave, second.slope), both - times(first.slope, second.slope)};
+}
+
+Complex second_moment(const EdgeWave& wave) { return further_integrals(wave)[0]; }
+
 double double_edge_share(double coupling) {
   GRIMALDI_EXPECT(std::abs(coupling) < 1);
   const double w = std::abs(coupling);

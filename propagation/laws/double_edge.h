@@ -51,6 +51,23 @@ EdgeWave make_edge_wave(double argument, std::complex<double> wave);
 /// Error: ≤ 1e-4 |U(q₁)U(q₂)| + 1e-11/(1−w²); of the part odd in w 1e-3 of itself (held by DoubleEdge.Excess*).
 std::complex<double> double_edge_excess(const EdgeWave& first, const EdgeWave& second, double coupling);
 
+/// An excess as above and the same weighted with the displacement t beyond either edge: what a third edge, on the far
+/// side of that one, couples with.
+struct DoubleEdgeMoments {
+  std::complex<double> excess;
+  std::complex<double> first, second;  ///< weighted with t₁ or t₂
+  std::complex<double> both;           ///< with t₁t₂
+};
+
+/// Formula: Σ_{n≥1} (2jw)ⁿ/n! I_n(q₁) I_n(q₂), I_{n+1}(q₁) I_n(q₂) and I_n(q₁) I_{n+1}(q₂) in its place. The whole
+/// moments, n = 0 with them, are M₁ = (e^{−jπ/4}/(2√π) (U(q₂) + w U(q₁)) − (q₁ + w q₂) U₂)/(1−w²), and M₂ with the
+/// edges exchanged (own: integration by parts). Series in the cases of `double_edge_excess`. Inputs: −1 < w < 1. Error:
+/// 1e-3 of the excess, of a moment 3e-3 of itself and 1e-9/(1−w²)² (held by DoubleEdge.Moments).
+DoubleEdgeMoments double_edge_moments(const EdgeWave& first, const EdgeWave& second, double coupling);
+
+/// I₂(q) = √(j/π) ∫₀^∞ t² e^{−jt²−2jqt} dt.
+std::complex<double> second_moment(const EdgeWave& wave);
+
 /// The largest amplitude that one edge's share in a wave over two can have.
 /// Formula: α = √((¼ + asin|w|/2π)/√(1−w²)), the root of the largest |U₂|. With f(q) = min(α, 0.3/q):
 /// |t U(q₁)U(q₂) + (U₂ − U(q₁)U(q₂))| ≤ f(q₁) f(q₂) for 0 ≤ t ≤ 1 and both signs of w.
