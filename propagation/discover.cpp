@@ -8,6 +8,7 @@
 #include "core/blocks.h"
 #include "core/constants.h"
 #include "core/random.h"
+#include "propagation/aimed_pairs.h"
 #include "propagation/launcher.h"
 #include "propagation/walker.h"
 
@@ -24,13 +25,13 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// Unites the records of one block with what there is.
-void merge(const BlockRecords& block, std::uint32_t pass_bit, Discovered& all) {
+void merge(const BlockRecords& block, std::uint32_t passes, Discovered& all) {
   std::vector<std::uint32_t> number(block.sequences.size());
   for (std::size_t i = 0; i < number.size(); ++i) {
     number[i] = all.sequences.enter(block.sequences.hash(i), block.sequences[i]);
   }
   for (const Seed& seed : block.seeds)
-    all.seeds.push_back({number[seed.sequence], seed.cell, pass_bit, seed.crossed, seed.gain});
+    all.seeds.push_back({number[seed.sequence], seed.cell, passes, seed.crossed, seed.gain});
   all.segments += block.segments;
   all.flux.launched += block.flux.launched;
   all.flux.absorbed += block.flux.absorbed;
@@ -182,6 +183,39 @@ Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, 
   for (Seed& seed : all.seeds) seed.sequence = renumbered[seed.sequence];
   unite_seeds(all.seeds, all.sequences.size(), threads);
   all.merge_seconds += seconds_since(start);
+  return all;
+}
+
+Discovered discover_pairs(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
+                          const Search& search, const std::function<void(double)>& progress,
+                          const std::atomic<bool>* stop) {
+  const PlanDescription& request = plan.request;
+  Discovered all;
+  all.sequences.enter(empty_sequence, {});
+  const AimedPairs pairs(scene, tracer, plan, transmitter, search.stride, all.shadow_rays);
+  const ReflectanceTable reflectance(plan);
+  const PatchRims rims(scene);
+  const unsigned threads = request.threads ? request.threads : hardware_threads();
+  std::vector<Walker> walkers;
+  for (unsigned i = 0; i < threads; ++i) walkers.emplace_back(scene, tracer, plan, search, reflectance, rims);
+  const auto passes = static_cast<std::size_t>(request.passes);
+  const double spacing = std::sqrt(4 * pi * double(passes) / request.rays);
+  constexpr std::size_t group = 256;
+  for (std::size_t first = 0; first < pairs.blocks() && !(stop && *stop); first += group) {
+    std::vector<BlockRecords> records(std::min(group, pairs.blocks() - first));
+    for_each_block(
+        records.size(), threads,
+        [&](std::size_t place, unsigned thread) {
+          walkers[thread].begin_block(spacing, records[place]);
+          pairs.walk_block(first + place, walkers[thread]);
+        },
+        stop);
+    const auto start = Clock::now();
+    for (std::size_t place = 0; place < records.size(); ++place)
+      merge(records[place], pairs.all() ? ~0u : 1u << (first + place) % passes, all);
+    all.merge_seconds += seconds_since(start);
+    if (progress) progress(double(first + records.size()) / double(pairs.blocks()));
+  }
   return all;
 }
 

@@ -70,4 +70,12 @@ struct Search {
 Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
                     const Search& search, const std::function<void(double)>& progress, const std::atomic<bool>* stop);
 
+/// Aims beams at pairs by name: from each edge in view of the transmitter at every face and (if the plan allows two
+/// edges) every edge, by each face in view at every edge (`AimedPairs`). What launched beams meet by chance is missed
+/// where one of the two is narrow or far, and a path over an edge and a face is often one of few that a cell has. The
+/// beams go on by faces alone. With as many rays that every pair is asked, what is found counts as found by every pass.
+Discovered discover_pairs(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
+                          const Search& search, const std::function<void(double)>& progress,
+                          const std::atomic<bool>* stop);
+
 }  // namespace grimaldi

@@ -49,6 +49,24 @@ std::uint64_t peak_memory() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
+/// A search for paths, and the growth of what it finds over the map.
+struct Round {
+  int fewest_edges, most_edges;
+  bool pairs;   ///< by name, else by launched beams
+  double size;  ///< share of the work
+};
+
+/// Paths of at most one edge first; then, where it is known what they bring, pairs of edges and faces asked by name,
+/// and paths of more edges. What stands in the way of a path is gone around by one more edge.
+std::vector<Round> rounds_of(const Plan& plan) {
+  const int most = most_edges(plan.request);
+  if (!plan.request.coverage || most == 0) return {{0, most, false, 0.8}};
+  std::vector<Round> rounds = {{0, 1, false, 0.3}};
+  if (plan.request.depth > 1) rounds.push_back({1, 1, true, 0.1});
+  if (most > 1) rounds.push_back({2, most, false, 0.4});
+  return rounds;
+}
+
 /// Shares of what was launched, from sums over beams.
 void add_flux(FluxLedger& ledger, const FluxLedger& sums, double share) {
   if (sums.launched == 0) return;
@@ -96,33 +114,34 @@ Result run(const Scene& scene, const Tracer& tracer, const Plan& asked, const Co
       };
       Discovered discovered;
       Grown grown;
-      // Paths of at most one edge first; then, where it is known what they bring, those of more. What stands in the way
-      // of a path is gone around by one more edge.
-      const bool twice = plan.request.coverage && most_edges(plan.request) > 1;
-      for (int search = 0; search < (twice ? 2 : 1) && !stopped(); ++search) {
-        const double from = twice ? 0.3 * search : 0, size = twice ? 0.3 + 0.2 * search : 0.8;
-        const int most = twice && search == 0 ? 1 : most_edges(plan.request);
+      double done = 0;
+      for (const Round& round : rounds_of(plan)) {
+        if (stopped()) break;
+        const double from = done, middle = done + 0.5 * round.size;
+        done += round.size;
         std::size_t first_seed = 0;
         {
           const StageClock stage(figures.discover_seconds, &figures.discover_cpu_seconds);
           Search wanted;
+          wanted.fewest_edges = round.fewest_edges;
+          wanted.most_edges = round.most_edges;
           wanted.stride = stride;
-          if (twice) (search == 0 ? wanted.most_edges : wanted.fewest_edges) = search + 1;
-          if (search == 1) {
-            const double share = effort_of(plan.request).negligible_share;
-            for (const double power : grown.known) wanted.negligible.push_back(share * power);
-          }
-          auto found = discover(scene, tracer, plan, t, wanted, report("discover", from, from + 0.5 * size), stop);
-          if (search == 0)
+          const double share = effort_of(plan.request).negligible_share;
+          for (const double power : grown.known) wanted.negligible.push_back(share * power);
+          const auto telling = report("discover", from, middle);
+          auto found = round.pairs ? discover_pairs(scene, tracer, plan, t, wanted, telling, stop)
+                                   : discover(scene, tracer, plan, t, wanted, telling, stop);
+          if (from == 0)
             discovered = std::move(found);
           else
             first_seed = discovered.append(found);
         }
         if (!plan.request.coverage || stopped()) continue;
         const StageClock stage(figures.grow_seconds, &figures.grow_cpu_seconds);
-        if (search == 0) look_back(scene, tracer, plan, t, grid, BackwardBeams::upward, discovered, stop, stride);
-        grow_and_lead_around(scene, tracer, plan, t, grid, effort_of(plan.request), first_seed, most, discovered, grown,
-                             report("grow", from + 0.5 * size, from + size), stop);
+        if (from == 0) look_back(scene, tracer, plan, t, grid, BackwardBeams::upward, discovered, stop, stride);
+        grow_and_lead_around(scene, tracer, plan, t, grid, effort_of(plan.request), first_seed,
+                             std::min(round.most_edges, most_edges(plan.request)), discovered, grown,
+                             report("grow", middle, done), stop);
       }
       if (plan.request.coverage && !stopped()) {
         const StageClock stage(figures.grow_seconds, &figures.grow_cpu_seconds);

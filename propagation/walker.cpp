@@ -128,7 +128,73 @@ class Walker::Walk {
     follow_pending();
   }
 
+  /// A beam over the wedge towards `target`.
+  void walk_over_edge(const Vec3& origin, std::uint32_t wedge_index, double along, const Vec3& target,
+                      std::uint64_t beam_number) {
+    if (auto beam = over_edge(origin, wedge_index, along, target, beam_number)) {
+      keep_if_wanted(*beam);
+      follow(*beam);
+      follow_pending();
+    }
+  }
+
+  /// The same towards a point of another wedge: what leaves that one.
+  void walk_to_second_edge(const Vec3& origin, std::uint32_t wedge_index, double along, std::uint32_t second,
+                           double share, std::uint64_t beam_number) {
+    const Wedge& wedge = scene_.wedges.wedges[second];
+    if (const auto beam = over_edge(origin, wedge_index, along, wedge.point(share * wedge.length), beam_number)) {
+      aim(*beam, second, share);
+      follow_pending();
+    }
+  }
+
+  /// A beam by the patch to the wedge: what leaves the wedge.
+  void walk_by_mirror(const Vec3& origin, std::uint32_t patch_index, std::uint32_t wedge_index, double share,
+                      std::uint64_t beam_number) {
+    beam_number_ = beam_number;
+    draws_ = 0;
+    seed_draw_ = beam_number;
+    const Patch& patch = scene_.patches.patches[patch_index];
+    const Wedge& wedge = scene_.wedges.wedges[wedge_index];
+    const Vec3 image = mirrored(origin, patch), way = outside(wedge, share * wedge.length) - image;
+    const double length = norm(way), towards = dot(way, patch.normal);
+    const double part = (patch.offset - dot(patch.normal, image)) / towards;
+    if (!(part > 0 && part < 1)) return;
+    Beam beam;
+    beam.origin = image + part * way;
+    beam.direction = way / length;
+    beam.since_vertex = beam.length = part * length;
+    ++records_->segments;
+    const Hit hit = tracer_.nearest(origin, (beam.origin - origin) / beam.length);
+    if (hit.triangle == no_index || scene_.patches.triangle_patch[hit.triangle] != patch_index) return;
+    beam.leave0 = patch_index;
+    append(beam, patch_index);
+    ++beam.reflections;
+    aim(beam, wedge_index, share);
+    follow_pending();
+  }
+
  private:
+  /// The beam that leaves the wedge, met straight from `origin`, towards `target`.
+  std::optional<Beam> over_edge(const Vec3& origin, std::uint32_t wedge_index, double along, const Vec3& target,
+                                std::uint64_t beam_number) {
+    beam_number_ = beam_number;
+    draws_ = 0;
+    seed_draw_ = beam_number;
+    const Wedge& wedge = scene_.wedges.wedges[wedge_index];
+    Beam beam;
+    beam.origin = origin;
+    auto passed = pass_edge(beam, wedge_index, along, distance(origin, outside(wedge, along)));
+    if (!passed) return std::nullopt;
+    Beam& child = passed->beam;
+    child.direction = normalized(target - child.origin);
+    double phi = std::atan2(dot(child.direction, wedge.normal0), dot(child.direction, wedge.along0));
+    if (phi < 0) phi += 2 * pi;
+    if (phi > wedge.exterior_angle) return std::nullopt;
+    child.strength *= diffracted_strength(wedge, passed->phi_in, phi, passed->sin_beta, child.radius);
+    return child;
+  }
+
   void follow_pending() {
     while (!pending_.empty()) {
       Beam beam = pending_.back();
@@ -409,6 +475,21 @@ void Walker::walk(const Vec3& origin, const Vec3& direction, std::uint64_t beam_
 
 void Walker::walk_to_edge(const Vec3& origin, std::uint32_t wedge_index, double along, std::uint64_t beam_number) {
   walk_->walk_to_edge(origin, wedge_index, along, beam_number);
+}
+
+void Walker::walk_over_edge(const Vec3& origin, std::uint32_t wedge_index, double along, const Vec3& target,
+                            std::uint64_t beam_number) {
+  walk_->walk_over_edge(origin, wedge_index, along, target, beam_number);
+}
+
+void Walker::walk_to_second_edge(const Vec3& origin, std::uint32_t wedge_index, double along, std::uint32_t second,
+                                 double share, std::uint64_t beam_number) {
+  walk_->walk_to_second_edge(origin, wedge_index, along, second, share, beam_number);
+}
+
+void Walker::walk_by_mirror(const Vec3& origin, std::uint32_t patch, std::uint32_t wedge_index, double share,
+                            std::uint64_t beam_number) {
+  walk_->walk_by_mirror(origin, patch, wedge_index, share, beam_number);
 }
 
 }  // namespace grimaldi

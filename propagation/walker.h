@@ -39,6 +39,18 @@ class Walker {
   /// A beam aimed at the wedge, at the share `along` of its length, straight from the transmitter.
   void walk_to_edge(const Vec3& origin, std::uint32_t wedge_index, double along, std::uint64_t beam_number);
 
+  /// A beam from `origin` over the wedge, `along` m from its start, towards `target` (a point on its Keller cone).
+  void walk_over_edge(const Vec3& origin, std::uint32_t wedge_index, double along, const Vec3& target,
+                      std::uint64_t beam_number);
+
+  /// The same towards a point of another wedge, at the share of its length: what leaves that one.
+  void walk_to_second_edge(const Vec3& origin, std::uint32_t wedge_index, double along, std::uint32_t second,
+                           double share, std::uint64_t beam_number);
+
+  /// A beam from `origin` by the patch to the wedge, at the share of its length: what leaves the wedge.
+  void walk_by_mirror(const Vec3& origin, std::uint32_t patch, std::uint32_t wedge_index, double share,
+                      std::uint64_t beam_number);
+
  private:
   class Walk;
   std::unique_ptr<Walk> walk_;
