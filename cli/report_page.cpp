@@ -107,7 +107,8 @@ std::string table_html(const std::vector<CaseResult>& results, const std::string
     if (before == nullptr || before->quantity != subject.quantity || before->reference != subject.reference) {
       if (before) html += "</table>\n";
       html += fmt::format(
-          "<h3>{}</h3><p class=why>against: {}</p>\n<table><tr><th>case<th>error<th>allowed<th><th>time<th>"
+          "<h3>{}</h3><p class=why>against: {}</p>\n<table><tr><th>case<th class=n>error<th class=n>allowed<th><th "
+          "class=n>time<th>"
           "why this much</tr>\n",
           escaped(subject.quantity), escaped(subject.reference));
     }
@@ -150,7 +151,7 @@ std::string report_page(const std::vector<CaseResult>& results, const std::vecto
   for (const std::string& suite : suites) html += fmt::format("<a href=\"#{0}\">{0}</a>", escaped(suite));
   html += "</nav>\n";
   if (missed > 0) {
-    html += "<h2>What misses</h2>\n<table><tr><th>case<th>error<th>allowed<th>what was seen</tr>\n";
+    html += "<h2>What misses</h2>\n<table><tr><th>case<th class=n>error<th class=n>allowed<th>what was seen</tr>\n";
     for (const CaseResult& result : results)
       if (!result.passed)
         html += fmt::format("<tr class=miss><td><code>{}</code><td class=n>{:.3g}{}<td class=n>{}<td>{}</tr>\n",
@@ -159,12 +160,12 @@ std::string report_page(const std::vector<CaseResult>& results, const std::vecto
     html += "</table>\n";
   }
   html += "<h2 id=theories>Where each theory is good, and where it fails</h2>\n";
-  for (const std::string& sentence : theory_words(results)) html += "<p>" + escaped(sentence) + "</p>\n";
+  for (const std::string& sentence : theory_words(results)) html += "<p>" + marked(sentence) + "</p>\n";
   html += aperture_heat(results);
   for (const std::string& suite : suites) {
     html += fmt::format("<h2 id=\"{0}\">{0}</h2>\n", escaped(suite));
     const std::string sentence = suite_words(suite);
-    if (!sentence.empty()) html += "<p>" + escaped(sentence) + "</p>\n";
+    if (!sentence.empty()) html += "<p>" + marked(sentence) + "</p>\n";
     html += figures_html(figures, suite) + table_html(results, suite);
   }
   return html + "</main></body></html>\n";
