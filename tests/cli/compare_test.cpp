@@ -9,6 +9,7 @@
 #include "cli/comparison_page.h"
 #include "cli/difference_picture.h"
 #include "cli/shadow_depth.h"
+#include "core/constants.h"
 #include "tests/cli/program.h"
 #include "tests/propagation/runs.h"
 
@@ -245,7 +246,7 @@ TEST(Comparison, CountsCellsAndDecibels) {
 struct BehindTheEdge : MadeUp {
   explicit BehindTheEdge(const std::vector<double>& frequencies) : MadeUp(row(), row()) {
     plan.request.transmitters.front().position = {-50, 0, -5};
-    plan.grid.height = -5;
+    plan.grid.z = -5;
     plan.frequency = frequencies;
     plan.wavenumber.clear();
     for (const double f : frequencies) plan.wavenumber.push_back(2 * pi * f / speed_of_light);
