@@ -73,14 +73,8 @@ double ShadowDepth::operator()(const Vec3& from, const Vec3& to, double lit_limi
   const bool lit = tracer_.visible(from, to);
   const double straight = distance(from, to), limit = lit ? lit_limit : shadow_limit;
   const double most = wavelength_ * limit * limit / 4;
-  const Vec3 axis = straight > 0 ? (to - from) / straight : Vec3{};
-  // A way over a point that lies h off the line is no shorter than √(straight² + 4 h²).
-  const double widest = std::sqrt(most * (2 * straight + most)) / 2;
   std::vector<Way> ways;
   for (const Group& group : groups_) {
-    const Vec3 arm = group.centre - from;
-    const double along = dot(arm, axis), reach = widest + group.radius;
-    if (norm2(arm) - along * along > reach * reach) continue;
     // No way over a point of the ball is shorter than this.
     if (distance(from, group.centre) + distance(group.centre, to) - 2 * group.radius > straight + most) continue;
     for (const std::uint32_t i : group.wedges) {
