@@ -12,6 +12,7 @@
 #include "core/constants.h"
 #include "tests/cli/program.h"
 #include "tests/propagation/runs.h"
+#include "tests/scenes/solids.h"
 
 namespace grimaldi {
 namespace {
@@ -182,6 +183,21 @@ TEST(ShadowDepth, OfTheHalfPlaneIsThatOfTheKnifeEdge) {
   }
   EXPECT_EQ(depth(-30), infinite);  // v = 15: deeper than was asked
   EXPECT_EQ(depth(30), -infinite);
+}
+
+// The ground is so large that a ray passes over what lies within millimetres of its ends, the faces of the edge too.
+TEST(ShadowDepth, NoEdgeLeadsIntoItsOwnWedge) {
+  Diagnostics diagnostics;
+  const Scene scene = build_scene(solids::scene({solids::box({-10, -10, 0}, {10, 10, 10}, false), solids::ground(5e3)}),
+                                  {}, diagnostics);
+  const Tracer tracer(scene);
+  ASSERT_GT(tracer.surface_gap(), 2e-3);
+  const ShadowDepth around(scene, tracer, 0.1);
+  EXPECT_EQ(around({-60, 1, 15}, {1, 2, 5}, 1e3, 1e3), infinite);
+  // 0.02: the way passes 1 mm off the edge. Behind the wall over the roof's far edge: √(70² + 5²) + √(10² + 8.5²) −
+  // √(80² + 13.5²) m around.
+  const double detour = std::hypot(70, 5) + std::hypot(10, 8.5) - std::hypot(80, 13.5);
+  EXPECT_NEAR(around({-60, 1, 15}, {20, 1, 1.5}, 1e3, 1e3), 2 * std::sqrt(detour / 0.1), 0.02);
 }
 
 /// A grid of n cells in a row on the lit side of a half-plane, with the gains of both theories; errors of 1 %.
