@@ -17,6 +17,7 @@
 #include "cli/map_picture.h"
 #include "cli/messages.h"
 #include "cli/output_folder.h"
+#include "cli/plan_words.h"
 #include "cli/prediction.h"
 #include "cli/progress.h"
 #include "cli/scene_request.h"
@@ -107,7 +108,7 @@ std::optional<Prediction> one_after_the_other(const std::array<std::optional<Pre
                     runs[0]->pilot_seconds + runs[1]->pilot_seconds};
 }
 
-std::string table(const Comparison& comparison) {
+std::string table(const Plan& plan, const Comparison& comparison) {
   std::string text = fmt::format("{:<14}{:>8}{:>11}{:>11}{:>11}{:>9}  {}\n", "FSD - UTD", "cells", "median", "|median|",
                                  "95 % below", "> noise", "believe");
   const auto row = [&](const char* name, const DifferenceFigures& f, const std::string& believe) {
@@ -116,10 +117,15 @@ std::string table(const Comparison& comparison) {
                         f.median_abs, f.p95_abs,
                         std::isfinite(f.beyond_noise) ? fmt::format("{:.1f} %", 100 * f.beyond_noise) : "", believe);
   };
-  row("all", comparison.all, "");
+  row("all", comparison.first().all, "");
   for (std::size_t r = 0; r < region_count; ++r)
-    row(region_names[r], comparison.regions[r], comparison.beliefs[r].model);
-  for (std::size_t m = 0; m < mechanism_count; ++m) row(mechanism_names[m], comparison.mechanisms[m], "");
+    row(region_names[r], comparison.first().regions[r], comparison.beliefs[r].model);
+  for (std::size_t m = 0; m < mechanism_count; ++m) row(mechanism_names[m], comparison.first().mechanisms[m], "");
+  if (comparison.bands.size() > 1) {
+    text += fmt::format("\nThe above at {}; all cells in each band:\n", frequency_words(plan, 0));
+    for (std::size_t b = 0; b < comparison.bands.size(); ++b)
+      row(frequency_words(plan, b).c_str(), comparison.bands[b].all, "");
+  }
   return text;
 }
 
@@ -163,7 +169,14 @@ int compare_verb(const Arguments& arguments) {
   if (arguments.predict) return tell(both, arguments);
   if (progress) progress->clear();
   if (both && progress) fmt::print(stderr, "predicted {}\n", prediction_text(*both));
+  const auto interrupted = [&] {
+    progress.reset();
+    folders.remove_if_empty();
+    fmt::print(stderr, "error: interrupted (nothing was written)\n");
+    return 1;
+  };
   folders.create();
+  std::optional<Comparison> compared;
   try {
     for (std::size_t m = 0; m < models.size(); ++m) {
       ProgressReport report;
@@ -180,18 +193,24 @@ int compare_verb(const Arguments& arguments) {
       }
       runs[m].result = timed(scene, tracer, runs[m].plan, report, interruption.flag());
       runs[m].result.figures.predicted = predicted[m];
-      if (runs[m].result.interrupted || interruption.happened()) {
-        progress.reset();
-        folders.remove_if_empty();
-        fmt::print(stderr, "error: interrupted (nothing was written)\n");
-        return 1;
-      }
+      if (runs[m].result.interrupted || interruption.happened()) return interrupted();
     }
+    if (progress) progress->show("compare", 0);
+    compared = compare_results(
+        scene, tracer, runs[0].plan, runs[0].result, runs[1].result,
+        [&progress](double share) {
+          if (progress) progress->show("compare", share);
+        },
+        interruption.flag());
+    if (!compared || interruption.happened()) return interrupted();
   } catch (...) {
     folders.remove_if_empty();
     throw;
   }
-  progress.reset();
+  // Two theories and the comparison: three parts of the writing.
+  const auto writing = [&progress](std::size_t done) {
+    if (progress) progress->show("write", double(done) / 3);
+  };
 
   // From here on every file is written to its end; a second signal still kills. An older compare.json goes first, so
   // that it never stands beside newer maps; the new one comes last.
@@ -200,6 +219,7 @@ int compare_verb(const Arguments& arguments) {
   std::array<std::string*, 2> picture = {&pictures.fsd, &pictures.utd};
   std::vector<Diagnostic> told = warnings;
   for (std::size_t m = 0; m < models.size(); ++m) {
+    writing(m);
     auto& [plan, result, summary] = runs[m];
     for (const Diagnostic& warning : result.warnings)  // both runs may say the same
       if (std::none_of(told.begin(), told.end(),
@@ -216,19 +236,21 @@ int compare_verb(const Arguments& arguments) {
   }
   const Plan& plan = runs[0].plan;
   const Result &fsd = runs[0].result, &utd = runs[1].result;
-  const Comparison comparison = compare_results(scene, tracer, plan, fsd, utd);
+  const Comparison& comparison = *compared;
+  writing(2);
   const std::vector<std::string> words = comparison_words(plan, comparison, fsd, utd);
   pictures.difference = difference_picture(scene, plan, fsd, utd, comparison).png();
   write_text(folders.all.file("difference.png"), pictures.difference);
   write_text(folders.all.file("report.html"), comparison_page(scene, plan, comparison, fsd, utd, pictures));
   const std::string json = comparison_json(comparison, runs[0].summary, runs[1].summary, words);
   write_text(folders.all.file("compare.json"), json);
+  progress.reset();
 
   if (!arguments.quiet) print_rest(told, print_warnings(told, shown), "fsd/summary.json and utd/summary.json");
   if (arguments.json) {
     fmt::print("{}", json);
   } else if (!arguments.quiet) {
-    fmt::print("{}\n", table(comparison));
+    fmt::print("{}\n", table(plan, comparison));
     for (const std::string& sentence : words) fmt::print("{}\n", sentence);
     fmt::print("\n{}\n", folders.all.file("report.html").string());
   }

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
+#include <mutex>
 
 #include "cli/plan_words.h"
 #include "cli/shadow_depth.h"
@@ -48,22 +50,22 @@ struct Gathered {
   }
 };
 
-/// A map's first band, all transmitters together.
+/// One band of a map, all transmitters together.
 class SummedMap {
  public:
-  SummedMap(const Plan& plan, const CoverageMap& map, const ShownQuantity& quantity)
-      : map_(map), weight_(quantity.weight), bands_(plan.bands()), cells_(plan.grid.size()) {
+  SummedMap(const Plan& plan, const CoverageMap& map, const ShownQuantity& quantity, std::size_t band)
+      : map_(map), weight_(quantity.weight), band_(band), bands_(plan.bands()), cells_(plan.grid.size()) {
     GRIMALDI_EXPECT(map.path_gain.size() == weight_.size() * bands_ * cells_);
   }
   double gain(std::size_t cell) const {
     double sum = 0;
-    for (std::size_t t = 0; t < weight_.size(); ++t) sum += weight_[t] * map_.path_gain[t * bands_ * cells_ + cell];
+    for (std::size_t t = 0; t < weight_.size(); ++t) sum += share(t, cell);
     return sum;
   }
   double variance(std::size_t cell) const {
     double sum = 0;
     for (std::size_t t = 0; t < weight_.size(); ++t) {
-      const double error = weight_[t] * map_.standard_error[t * bands_ * cells_ + cell];
+      const double error = weight_[t] * map_.standard_error[(t * bands_ + band_) * cells_ + cell];
       sum += error * error;
     }
     return sum;
@@ -71,14 +73,26 @@ class SummedMap {
   double layer(Mechanism mechanism, std::size_t cell) const {
     double sum = 0;
     for (std::size_t t = 0; t < weight_.size(); ++t)
-      sum += weight_[t] * map_.mechanism_gain[(t * mechanism_count + std::size_t(mechanism)) * bands_ * cells_ + cell];
+      sum += weight_[t] *
+             map_.mechanism_gain[((t * mechanism_count + std::size_t(mechanism)) * bands_ + band_) * cells_ + cell];
     return sum;
+  }
+  /// The transmitter that brings most.
+  std::size_t strongest(std::size_t cell) const {
+    std::size_t best = 0;
+    for (std::size_t t = 1; t < weight_.size(); ++t)
+      if (share(t, cell) > share(best, cell)) best = t;
+    return best;
   }
 
  private:
+  double share(std::size_t t, std::size_t cell) const {
+    return weight_[t] * map_.path_gain[(t * bands_ + band_) * cells_ + cell];
+  }
+
   const CoverageMap& map_;
   const std::vector<double>& weight_;
-  std::size_t bands_, cells_;
+  std::size_t band_, bands_, cells_;
 };
 
 /// A point of the cell that lies outdoors: its centre, or the middle of a quarter.
@@ -99,34 +113,72 @@ Region region_of(double v) {
   return v <= shadow_v ? Region::shadow : Region::deep_shadow;
 }
 
-/// Regions of the cells that both reach; lit elsewhere.
-std::vector<Region> regions_of(const Scene& scene, const Tracer& tracer, const Plan& plan, const CoverageMap& map,
-                               const ShownQuantity& quantity, const std::vector<Comparison::Sort>& sort) {
-  const std::size_t cells = plan.grid.size();
-  const double wavelength = 2 * pi / plan.wavenumber.front();
-  const ShadowDepth depth(scene, tracer, wavelength);
-  std::vector<Region> regions(cells, Region::lit);
-  for_each_block(plan.grid.ny, plan.request.threads, [&](std::size_t row, unsigned) {
-    for (std::size_t cell = row * plan.grid.nx; cell < (row + 1) * plan.grid.nx; ++cell) {
-      if (sort[cell] != Comparison::Sort::both) continue;
-      std::size_t strongest = 0;
-      double most = -1;
-      for (std::size_t t = 0; t < quantity.weight.size(); ++t) {
-        const double gain = quantity.weight[t] * map.path_gain[t * plan.bands() * cells + cell];
-        if (gain > most) most = gain, strongest = t;
-      }
-      const Vec3& from = plan.request.transmitters[strongest].position;
-      const Vec3 to = outdoor_point(plan, tracer, map, cell);
-      regions[cell] = region_of(depth(from, to, transition_v, shadow_v));
-    }
-  });
+/// Both maps in one band.
+struct BandMaps {
+  ShownQuantity quantity;
+  SummedMap fsd, utd;
+
+  BandMaps(const Plan& plan, const Result& of_fsd, const Result& of_utd, std::size_t band)
+      : quantity(shown_quantity(plan, band)),
+        fsd(plan, *of_fsd.coverage, quantity, band),
+        utd(plan, *of_utd.coverage, quantity, band) {}
+  BandMaps(const BandMaps&) = delete;  // the maps refer to the quantity
+  BandMaps& operator=(const BandMaps&) = delete;
+};
+
+Comparison::Sort sort_of(double fsd, double utd) {
+  using Sort = Comparison::Sort;
+  if (std::isnan(fsd) || std::isnan(utd)) return Sort::inside;
+  if (fsd > 0 && utd > 0) return Sort::both;
+  if (fsd > 0) return Sort::only_fsd;
+  return utd > 0 ? Sort::only_utd : Sort::neither;
+}
+
+/// Regions of the cells that both reach, lit elsewhere; band by band. The detour over an edge is the same in all bands,
+/// v goes with the root of the frequency: asked once, at the lowest.
+std::vector<std::vector<Region>> regions_of(const Scene& scene, const Tracer& tracer, const Plan& plan,
+                                            const CoverageMap& map, const std::deque<BandMaps>& maps,
+                                            const std::function<void(double)>& progress,
+                                            const std::atomic<bool>* stop) {
+  const std::size_t bands = maps.size();
+  const double lowest = *std::min_element(plan.wavenumber.begin(), plan.wavenumber.end());
+  const ShadowDepth depth(scene, tracer, 2 * pi / lowest);
+  std::vector<std::vector<Region>> regions(bands, std::vector<Region>(plan.grid.size(), Region::lit));
+  std::mutex mutex;  // guards the two below
+  std::size_t rows_done = 0;
+  const auto tell = [&] {
+    const std::lock_guard lock(mutex);
+    ++rows_done;
+    if (progress) progress(double(rows_done) / double(plan.grid.ny));
+  };
+  for_each_block(
+      plan.grid.ny, plan.request.threads,
+      [&](std::size_t row, unsigned) {
+        for (std::size_t cell = row * plan.grid.nx; cell < (row + 1) * plan.grid.nx; ++cell) {
+          std::optional<std::size_t> asked;  // the transmitter that v is of
+          double v = 0;
+          for (std::size_t band = 0; band < bands; ++band) {
+            if (sort_of(maps[band].fsd.gain(cell), maps[band].utd.gain(cell)) != Comparison::Sort::both) continue;
+            const std::size_t strongest = maps[band].fsd.strongest(cell);
+            if (asked != strongest) {
+              asked = strongest;
+              v = depth(plan.request.transmitters[strongest].position, outdoor_point(plan, tracer, map, cell),
+                        transition_v, shadow_v);
+            }
+            regions[band][cell] = region_of(v * std::sqrt(plan.wavenumber[band] / lowest));
+          }
+        }
+        tell();
+      },
+      stop);
   return regions;
 }
 
-ReceiverFigures receiver_figures(const Plan& plan, const ShownQuantity& quantity, const ReceiverProfile& profile) {
+ReceiverFigures receiver_figures(const Plan& plan, const ShownQuantity& quantity, std::size_t band,
+                                 const ReceiverProfile& profile) {
   double power = 0, first = 0, second = 0;  // moments of the delay
   for (std::size_t t = 0; t < quantity.weight.size(); ++t) {
-    const std::size_t at = t * plan.bands();
+    const std::size_t at = t * plan.bands() + band;
     const double p = quantity.weight[t] * profile.total[at];
     const double mean = profile.mean_delay[at], spread = profile.rms_delay_spread[at];
     if (!(p > 0) || !std::isfinite(mean) || !std::isfinite(spread)) continue;
@@ -135,7 +187,7 @@ ReceiverFigures receiver_figures(const Plan& plan, const ShownQuantity& quantity
     second += p * (mean * mean + spread * spread);
   }
   if (!(power > 0)) return {nothing, nothing};
-  if (quantity.weight.size() == 1) return {decibels(power), profile.rms_delay_spread.front()};
+  if (quantity.weight.size() == 1) return {decibels(power), profile.rms_delay_spread[band]};
   const double mean = first / power;
   return {decibels(power), std::sqrt(std::max(0.0, second / power - mean * mean))};
 }
@@ -162,10 +214,9 @@ Belief belief(Region region, bool solid) {
         "utd",
         "Behind a single solid wedge UTD errs by 0.02 dB, the three black edges of FSD by up to 2.6 dB (soft, within "
         "20 degrees of the boundary), 4 to 25 dB (soft, deeper) or 1.6 dB (hard)."};
-  return {
-      "utd",
-      "Deep behind solid wedges FSD errs by 4 to 25 dB (soft). Where a wave passes two edges of one face neither is to "
-      "be trusted."};
+  return {"utd",
+          "Deep behind solid wedges FSD errs by 4 to 25 dB (soft). Over a flat roof UTD errs by 0.1 dB in "
+          "the median, over two roofs by 3 to 5 dB at one point in ten where the source is low."};
 }
 
 // What is not finite is null.
@@ -201,104 +252,119 @@ std::string nested(std::string summary) {
   return out;
 }
 
-std::string joined(const std::vector<std::string>& lines, char open, char close) {
-  if (lines.empty()) return {open, close};
-  return fmt::format("{}\n    {}\n  {}", open, fmt::join(lines, ",\n    "), close);
+/// One item a line; `indent` begins the line of the closing bracket.
+std::string joined(const std::vector<std::string>& items, char open, char close, const std::string& indent) {
+  if (items.empty()) return {open, close};
+  return fmt::format("{}\n{}  {}\n{}{}", open, indent, fmt::join(items, ",\n  " + indent), indent, close);
 }
 
-}  // namespace
-
-Comparison compare_results(const Scene& scene, const Tracer& tracer, const Plan& plan, const Result& fsd,
-                           const Result& utd) {
-  GRIMALDI_EXPECT(fsd.coverage && utd.coverage && fsd.profiles.size() == utd.profiles.size());
-  const ShownQuantity quantity = shown_quantity(plan);
-  const SummedMap a(plan, *fsd.coverage, quantity), b(plan, *utd.coverage, quantity);
-  const std::size_t cells = plan.grid.size();
-  Comparison result;
-  result.sort.assign(cells, Comparison::Sort::neither);
-  result.difference_dB.assign(cells, nothing);
-  std::vector<bool> beyond_noise(cells, false);
-  Gathered all;
-  std::array<Gathered, region_count> regions;
-  std::array<Gathered, mechanism_count> mechanisms;
-  for (std::size_t cell = 0; cell < cells; ++cell) {
-    const double of_fsd = a.gain(cell), of_utd = b.gain(cell);
-    if (std::isnan(of_fsd) || std::isnan(of_utd)) {
-      result.sort[cell] = Comparison::Sort::inside;
-      continue;
-    }
-    for (std::size_t m = 0; m < mechanism_count; ++m) {
-      const double f = a.layer(Mechanism(m), cell), u = b.layer(Mechanism(m), cell);
-      if (f > 0 && u > 0) mechanisms[m].add(decibels(f / u), false);
-    }
-    if (!(of_fsd > 0 && of_utd > 0)) {
-      if (of_fsd > 0) result.sort[cell] = Comparison::Sort::only_fsd, ++result.only_fsd;
-      if (of_utd > 0) result.sort[cell] = Comparison::Sort::only_utd, ++result.only_utd;
-      continue;
-    }
-    const double difference = decibels(of_fsd / of_utd);
-    result.sort[cell] = Comparison::Sort::both;
-    result.difference_dB[cell] = difference;
-    const bool beyond = std::abs(difference) > same_level &&
-                        std::abs(of_fsd - of_utd) > 2 * std::sqrt(a.variance(cell) + b.variance(cell));
-    beyond_noise[cell] = beyond;
-    all.add(difference, beyond);
-  }
-  result.region = regions_of(scene, tracer, plan, *fsd.coverage, quantity, result.sort);
-  for (std::size_t cell = 0; cell < cells; ++cell)
-    if (result.sort[cell] == Comparison::Sort::both)
-      regions[std::size_t(result.region[cell])].add(result.difference_dB[cell], beyond_noise[cell]);
-  result.all = all.figures();
-  result.solid = mostly_solid(scene);
-  for (std::size_t r = 0; r < region_count; ++r) {
-    result.regions[r] = regions[r].figures();
-    result.beliefs[r] = belief(Region(r), result.solid);
-  }
-  for (std::size_t m = 0; m < mechanism_count; ++m)
-    result.mechanisms[m] = mechanisms[m].figures(), result.mechanisms[m].beyond_noise = nothing;
-  for (std::size_t r = 0; r < fsd.profiles.size(); ++r) {
-    result.receivers.push_back(fsd.profiles[r].name);
-    result.fsd.push_back(receiver_figures(plan, quantity, fsd.profiles[r]));
-    result.utd.push_back(receiver_figures(plan, quantity, utd.profiles[r]));
-  }
-  return result;
-}
-
-std::string comparison_json(const Comparison& comparison, const std::string& fsd_summary,
-                            const std::string& utd_summary, const std::vector<std::string>& words) {
-  std::vector<std::string> regions, mechanisms, profiles, sentences;
+/// What compare.json says of a band: difference_dB … profiles, each on a line that begins with `indent`.
+std::string band_members(const Comparison& comparison, const BandComparison& band, const std::string& indent) {
+  std::vector<std::string> regions, mechanisms, profiles;
   for (std::size_t r = 0; r < region_count; ++r)
     regions.push_back(fmt::format(R"({{"name": {}, {}, "believe": {}, "why": {}}})", quoted(region_names[r]),
-                                  members(comparison.regions[r]), quoted(comparison.beliefs[r].model),
+                                  members(band.regions[r]), quoted(comparison.beliefs[r].model),
                                   quoted(comparison.beliefs[r].why)));
   for (std::size_t m = 0; m < mechanism_count; ++m)
-    if (comparison.mechanisms[m].cells > 0)
-      mechanisms.push_back(fmt::format(R"({}: {{{}}})", quoted(mechanism_names[m]), members(comparison.mechanisms[m])));
+    if (band.mechanisms[m].cells > 0)
+      mechanisms.push_back(fmt::format(R"({}: {{{}}})", quoted(mechanism_names[m]), members(band.mechanisms[m])));
   for (std::size_t r = 0; r < comparison.receivers.size(); ++r) {
-    const ReceiverFigures &f = comparison.fsd[r], &u = comparison.utd[r];
+    const ReceiverFigures &f = band.fsd[r], &u = band.utd[r];
     profiles.push_back(
         fmt::format(R"({}: {{{}, "fsd": {{{}}}, "utd": {{{}}}}})", quoted(comparison.receivers[r]),
                     members(ReceiverFigures{f.level_dB - u.level_dB, f.delay_spread_s - u.delay_spread_s}), members(f),
                     members(u)));
   }
+  const std::vector<std::string> lines = {fmt::format(R"("difference_dB": {{{}}})", members(band.all)),
+                                          fmt::format(R"("only_fsd_cells": {})", band.only_fsd),
+                                          fmt::format(R"("only_utd_cells": {})", band.only_utd),
+                                          R"("regions": )" + joined(regions, '[', ']', indent),
+                                          R"("mechanisms": )" + joined(mechanisms, '{', '}', indent),
+                                          R"("profiles": )" + joined(profiles, '{', '}', indent)};
+  return indent + fmt::format("{}", fmt::join(lines, ",\n" + indent));
+}
+
+/// The cells of one band; neither its frequency nor the receivers.
+BandComparison compare_cells(const BandMaps& maps, const std::vector<Region>& region) {
+  const auto& [quantity, a, b] = maps;
+  BandComparison result;
+  Gathered all;
+  std::array<Gathered, region_count> regions;
+  std::array<Gathered, mechanism_count> mechanisms;
+  for (std::size_t cell = 0; cell < region.size(); ++cell) {
+    const double of_fsd = a.gain(cell), of_utd = b.gain(cell);
+    const Comparison::Sort sort = sort_of(of_fsd, of_utd);
+    if (sort == Comparison::Sort::inside) continue;
+    for (std::size_t m = 0; m < mechanism_count; ++m) {
+      const double f = a.layer(Mechanism(m), cell), u = b.layer(Mechanism(m), cell);
+      if (f > 0 && u > 0) mechanisms[m].add(decibels(f / u), false);
+    }
+    result.only_fsd += sort == Comparison::Sort::only_fsd;
+    result.only_utd += sort == Comparison::Sort::only_utd;
+    if (sort != Comparison::Sort::both) continue;
+    const double difference = decibels(of_fsd / of_utd);
+    const bool beyond = std::abs(difference) > same_level &&
+                        std::abs(of_fsd - of_utd) > 2 * std::sqrt(a.variance(cell) + b.variance(cell));
+    all.add(difference, beyond);
+    regions[std::size_t(region[cell])].add(difference, beyond);
+  }
+  result.all = all.figures();
+  for (std::size_t r = 0; r < region_count; ++r) result.regions[r] = regions[r].figures();
+  for (std::size_t m = 0; m < mechanism_count; ++m)
+    result.mechanisms[m] = mechanisms[m].figures(), result.mechanisms[m].beyond_noise = nothing;
+  return result;
+}
+
+}  // namespace
+
+std::optional<Comparison> compare_results(const Scene& scene, const Tracer& tracer, const Plan& plan, const Result& fsd,
+                                          const Result& utd, const std::function<void(double)>& progress,
+                                          const std::atomic<bool>* stop) {
+  GRIMALDI_EXPECT(fsd.coverage && utd.coverage && fsd.profiles.size() == utd.profiles.size() && plan.bands() > 0);
+  std::deque<BandMaps> maps;  // its members never move
+  for (std::size_t band = 0; band < plan.bands(); ++band) maps.emplace_back(plan, fsd, utd, band);
+  const auto regions = regions_of(scene, tracer, plan, *fsd.coverage, maps, progress, stop);
+  if (stop != nullptr && stop->load()) return std::nullopt;
+  Comparison result;
+  for (std::size_t cell = 0; cell < plan.grid.size(); ++cell) {
+    const double of_fsd = maps.front().fsd.gain(cell), of_utd = maps.front().utd.gain(cell);
+    result.sort.push_back(sort_of(of_fsd, of_utd));
+    result.difference_dB.push_back(result.sort.back() == Comparison::Sort::both ? decibels(of_fsd / of_utd) : nothing);
+  }
+  result.region = regions.front();
+  for (std::size_t band = 0; band < plan.bands(); ++band) {
+    BandComparison& one = result.bands.emplace_back(compare_cells(maps[band], regions[band]));
+    one.frequency = plan.frequency[band];
+    for (std::size_t r = 0; r < fsd.profiles.size(); ++r) {
+      one.fsd.push_back(receiver_figures(plan, maps[band].quantity, band, fsd.profiles[r]));
+      one.utd.push_back(receiver_figures(plan, maps[band].quantity, band, utd.profiles[r]));
+    }
+  }
+  for (const ReceiverProfile& profile : fsd.profiles) result.receivers.push_back(profile.name);
+  result.solid = mostly_solid(scene);
+  for (std::size_t r = 0; r < region_count; ++r) result.beliefs[r] = belief(Region(r), result.solid);
+  return result;
+}
+
+std::string comparison_json(const Comparison& comparison, const std::string& fsd_summary,
+                            const std::string& utd_summary, const std::vector<std::string>& words) {
+  std::vector<std::string> bands, sentences;
+  for (const BandComparison& band : comparison.bands)
+    bands.push_back(fmt::format("{{\n      \"frequency_Hz\": {},\n{}\n    }}", number(band.frequency),
+                                band_members(comparison, band, "      ")));
   for (const std::string& sentence : words) sentences.push_back(quoted(sentence));
   return fmt::format(R"({{
   "models": {{
     "fsd": {},
     "utd": {}
   }},
-  "difference_dB": {{{}}},
-  "only_fsd_cells": {},
-  "only_utd_cells": {},
-  "regions": {},
-  "mechanisms": {},
-  "profiles": {},
+{},
+  "bands": {},
   "words": {}
 }}
 )",
-                     nested(fsd_summary), nested(utd_summary), members(comparison.all), comparison.only_fsd,
-                     comparison.only_utd, joined(regions, '[', ']'), joined(mechanisms, '{', '}'),
-                     joined(profiles, '{', '}'), joined(sentences, '[', ']'));
+                     nested(fsd_summary), nested(utd_summary), band_members(comparison, comparison.first(), "  "),
+                     joined(bands, '[', ']', "  "), joined(sentences, '[', ']', "  "));
 }
 
 }  // namespace grimaldi

@@ -2,7 +2,10 @@
 // Two runs of one scenario, once with FSD and once with UTD, held against each other.
 
 #include <array>
+#include <atomic>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,32 +46,43 @@ struct Belief {
   std::string why;
 };
 
-/// A receiver under one theory. The level is that of ShownQuantity, all transmitters together, first band; the spread
+/// A receiver under one theory. The level is that of ShownQuantity, all transmitters together, one band; the spread
 /// that of the sum of their profiles. NaN where nothing arrived.
 struct ReceiverFigures {
   double level_dB = 0, delay_spread_s = 0;
 };
 
-struct Comparison {
-  enum class Sort : std::uint8_t { inside, neither, only_fsd, only_utd, both };
-  std::vector<Sort> sort;             ///< per cell
-  std::vector<double> difference_dB;  ///< per cell that both reach; NaN elsewhere
-  std::vector<Region> region;         ///< per cell that both reach
+/// One band of both results.
+struct BandComparison {
+  double frequency = 0;  ///< Hz
   std::size_t only_fsd = 0, only_utd = 0;
   DifferenceFigures all;
   std::array<DifferenceFigures, region_count> regions;
   std::array<DifferenceFigures, mechanism_count> mechanisms;  ///< over cells where both layers are positive
-  std::array<Belief, region_count> beliefs;
-  std::vector<std::string> receivers;
-  std::vector<ReceiverFigures> fsd, utd;  ///< per receiver
-  bool solid = false;                     ///< most of the edges' length belongs to solids, not to thin screens
+  std::vector<ReceiverFigures> fsd, utd;                      ///< per receiver
 };
 
-/// Compares the first band of two results of the same plan; both must have a coverage map with the shapes of `plan`.
-/// The noise of a cell is √(σ² of FSD + σ² of UTD). Both runs send the same beams and find mostly the same
-/// paths, so their errors go together and this is more than the noise of the difference.
-Comparison compare_results(const Scene& scene, const Tracer& tracer, const Plan& plan, const Result& fsd,
-                           const Result& utd);
+struct Comparison {
+  enum class Sort : std::uint8_t { inside, neither, only_fsd, only_utd, both };
+  // Of the first band, per cell:
+  std::vector<Sort> sort;
+  std::vector<double> difference_dB;  ///< of cells that both reach; NaN elsewhere
+  std::vector<Region> region;         ///< of cells that both reach; lit elsewhere
+  std::vector<BandComparison> bands;
+  std::array<Belief, region_count> beliefs;
+  std::vector<std::string> receivers;
+  bool solid = false;  ///< most of the edges' length belongs to solids, not to thin screens
+
+  const BandComparison& first() const { return bands.front(); }
+};
+
+/// Compares two results of the same plan, band by band; both must have a coverage map with the shapes of `plan`, which
+/// has at least one band. The noise of a cell is √(σ² of FSD + σ² of UTD). Both runs send the same beams and find
+/// mostly the same paths, so their errors go together and this is more than the noise of the difference. `progress` is
+/// told the share done (0 … 1), by one thread at a time; nothing, if `stop` became true before the end.
+std::optional<Comparison> compare_results(const Scene& scene, const Tracer& tracer, const Plan& plan, const Result& fsd,
+                                          const Result& utd, const std::function<void(double)>& progress = {},
+                                          const std::atomic<bool>* stop = nullptr);
 
 /// The text of compare.json. `fsd_summary` and `utd_summary` are the texts of the two summary.json; `words` goes in as
 /// a list.

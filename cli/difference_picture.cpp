@@ -52,7 +52,7 @@ std::array<Panel, 3> make_panels(const Plan& plan, const Result& fsd, const Resu
       if (!std::isnan(level)) reached.push_back(level);
   const ValueRange scale = reached.empty() ? ValueRange{-10, 0} : colour_range(reached);
   panels[0].scale = panels[1].scale = scale;
-  const double half = difference_scale(comparison.all.p95_abs);
+  const double half = difference_scale(comparison.first().all.p95_abs);
   panels[2] = {
       "FSD − UTD", "difference (dB), red: FSD stronger", comparison.difference_dB, {-half, half}, diverging_colour_of,
       true};

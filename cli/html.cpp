@@ -18,8 +18,8 @@ h3{font-size:1.02rem;margin:1.6rem 0 .3rem}p{max-width:78ch;margin:.5rem 0}
 nav a{margin-right:1.1rem}a{color:#0b5cad;text-decoration:none}a:hover{text-decoration:underline}
 table{border-collapse:collapse;font-size:.86rem;width:100%}th{text-align:left;font-weight:600;color:var(--soft);border-bottom:2px solid var(--line);padding:.35rem .5rem;vertical-align:bottom}
 td{border-bottom:1px solid var(--line);padding:.28rem .5rem;vertical-align:top}
-td.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}td.v{white-space:nowrap;font-weight:600;color:var(--good)}
-tr.miss td{background:#fdecea}tr.miss td.v{color:var(--bad)}code{font:.92em ui-monospace,"DejaVu Sans Mono",monospace}
+td.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}th.n{text-align:right}table.narrow{width:auto}table.narrow td.n,table.narrow th.n{padding-left:1.6rem}td.v{white-space:nowrap;font-weight:600;color:var(--good)}
+tr.known td.v{color:var(--soft)}tr.miss td{background:#fdecea}tr.miss td.v{color:var(--bad)}code{font:.92em ui-monospace,"DejaVu Sans Mono",monospace}
 .why{color:var(--soft);font-size:.84rem;max-width:none;margin:.15rem 0 .5rem}.note{color:var(--soft);font-size:.82rem}
 .heat td{text-align:center;border:1px solid #fff;font-variant-numeric:tabular-nums;padding:.3rem .2rem}.heat th{text-align:center;border-bottom:1px solid var(--line)}
 .heat td.h{text-align:left;color:var(--soft);background:none}.scroll{overflow-x:auto}
@@ -48,6 +48,20 @@ std::string escaped(const std::string& text) {
     }
   }
   return out;
+}
+
+std::string marked(const std::string& text) {
+  std::string out;
+  bool code = false;
+  for (const char c : escaped(text)) {
+    if (c == '`') {
+      out += code ? "</code>" : "<code>";
+      code = !code;
+    } else {
+      out += c;
+    }
+  }
+  return code ? out + "</code>" : out;
 }
 
 std::string base64(const std::string& bytes) {

@@ -51,11 +51,14 @@ std::string scene_words(const Scene& scene) {
   return file.empty() ? scene.name : file;
 }
 
+std::string frequency_words(const Plan& plan, std::size_t band) {
+  const double frequency = plan.frequency[band];
+  return format_frequency(plan.request.kind == WaveKind::acoustic ? nominal_frequency(frequency) : frequency);
+}
+
 std::string band_words(const Plan& plan) {
   if (plan.frequency.empty()) return {};
-  const double frequency = plan.frequency.front();
-  std::string words =
-      format_frequency(plan.request.kind == WaveKind::acoustic ? nominal_frequency(frequency) : frequency);
+  std::string words = frequency_words(plan, 0);
   if (plan.bands() > 1) words += fmt::format(" (first of {} bands)", plan.bands());
   return words;
 }
@@ -85,14 +88,14 @@ double ShownQuantity::decibels(std::size_t transmitter, double gain) const {
   return 10 * std::log10(weight[transmitter] * gain);
 }
 
-ShownQuantity shown_quantity(const Plan& plan) {
+ShownQuantity shown_quantity(const Plan& plan, std::size_t band) {
   const std::vector<Transmitter>& all = plan.request.transmitters;
   if (plan.request.kind == WaveKind::radio) return {"path gain", "dB", std::vector<double>(all.size(), 1.0)};
   ShownQuantity level{"sound pressure level", "dB re 20 µPa", {}};
   const double impedance = characteristic_impedance(plan.request.air) / 400;
   for (const Transmitter& source : all) {
     if (source.power.empty()) return {"path gain", "dB re 1 m⁻²", std::vector<double>(all.size(), 1.0)};
-    level.weight.push_back(std::pow(10, source.power.front() / 10) * impedance);
+    level.weight.push_back(std::pow(10, source.power[std::min(band, source.power.size() - 1)] / 10) * impedance);
   }
   return level;
 }

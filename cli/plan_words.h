@@ -24,8 +24,11 @@ std::string transmitter_words(const Plan& plan);
 /// Parts such as "direct, reflection, diffraction (FSD)", "depth 3", "1 000 000 rays".
 std::vector<std::string> method_words(const Plan& plan);
 
+/// "3.5 GHz"; of sound the nominal frequency, "1 kHz".
+std::string frequency_words(const Plan& plan, std::size_t band);
+
 /// What a picture shows of a gain: the path gain itself (radio), or the sound pressure level (sound)
-/// L_p = L_W + 10 lg(gain · 1 m²) + 10 lg(ρc / 400 Pa·s/m), L_W the source's sound power level in the first band.
+/// L_p = L_W + 10 lg(gain · 1 m²) + 10 lg(ρc / 400 Pa·s/m), L_W the source's sound power level in the band.
 /// Sound of a source that has no power is shown as path gain.
 struct ShownQuantity {
   std::string name;            ///< "path gain", "sound pressure level"
@@ -33,6 +36,6 @@ struct ShownQuantity {
   std::vector<double> weight;  ///< per transmitter: the shown value is 10 lg Σ weight·gain
   double decibels(std::size_t transmitter, double gain) const;  ///< requires gain > 0
 };
-ShownQuantity shown_quantity(const Plan& plan);
+ShownQuantity shown_quantity(const Plan& plan, std::size_t band = 0);
 
 }  // namespace grimaldi

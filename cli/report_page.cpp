@@ -27,6 +27,12 @@ std::string bound_text(const Case& subject) {
                               : fmt::format("≤ {:.2g}{}", subject.tolerance, unit);
 }
 
+/// A fact records a known weakness: it has to lie in its band, and is no merit.
+const char* verdict_words(const CaseResult& result) {
+  if (!result.passed) return "MISS";
+  return result.subject->at_least > 0 ? "as known" : "pass";
+}
+
 /// The parts of apertures/square/D10/N0.1/fsd.
 struct ApertureKey {
   std::string shape, size, number, theory;
@@ -60,7 +66,10 @@ std::string aperture_heat(const std::vector<CaseResult>& results) {
   if (lines.empty()) return {};
   const std::array<std::pair<const char*, const char*>, 2> theories{
       {{"fsd", "polygon form of the BSDF (far field)"}, {"edges", "connected edges (repaired BSDF = UTD)"}}};
-  std::string html = "<div class=scroll><table class=heat><tr><th rowspan=2>opening<th rowspan=2>size";
+  std::string html =
+      "<h3>Error of the openings</h3><p class=why>N = (D/2)²/λz, the Fresnel number of an opening of size D at the "
+      "distance z. Green: 0.03 dB and less; red: 10 dB and more.</p>\n"
+      "<div class=scroll><table class=heat><tr><th rowspan=2>opening<th rowspan=2>size";
   for (const auto& [key, name] : theories) html += fmt::format("<th colspan={}>{}, error in dB", numbers.size(), name);
   html += "</tr><tr>";
   for (std::size_t t = 0; t < theories.size(); ++t)
@@ -104,10 +113,13 @@ std::string table_html(const std::vector<CaseResult>& results, const std::string
   for (const CaseResult& result : results) {
     if (suite_of(result) != suite) continue;
     const Case& subject = *result.subject;
-    if (before == nullptr || before->quantity != subject.quantity || before->reference != subject.reference) {
+    const bool same_heading =
+        before != nullptr && before->quantity == subject.quantity && before->reference == subject.reference;
+    if (!same_heading) {
       if (before) html += "</table>\n";
       html += fmt::format(
-          "<h3>{}</h3><p class=why>against: {}</p>\n<table><tr><th>case<th>error<th>allowed<th><th>time<th>"
+          "<h3>{}</h3><p class=why>against: {}</p>\n<table><tr><th>case<th class=n>error<th class=n>allowed<th><th "
+          "class=n>time<th>"
           "why this much</tr>\n",
           escaped(subject.quantity), escaped(subject.reference));
     }
@@ -117,8 +129,9 @@ std::string table_html(const std::vector<CaseResult>& results, const std::string
     html += fmt::format(
         "<tr{}><td><code>{}</code><td class=n>{:.3g}{}{}<td class=n>{}<td class=v>{}<td class=n>{:.2f} "
         "s<td>{}{}</tr>\n",
-        result.passed ? "" : " class=miss", escaped(subject.name), result.outcome.error, unit_of(subject), digits,
-        bound_text(subject), result.passed ? "pass" : "MISS", result.seconds, escaped(subject.reason),
+        !result.passed ? " class=miss" : (subject.at_least > 0 ? " class=known" : ""), escaped(subject.name),
+        result.outcome.error, unit_of(subject), digits, bound_text(subject), verdict_words(result), result.seconds,
+        same_heading && before->reason == subject.reason ? "<span class=note>as above</span>" : escaped(subject.reason),
         result.outcome.note.empty() ? "" : "<div class=note>" + escaped(result.outcome.note) + "</div>");
     before = &subject;
   }
@@ -143,14 +156,16 @@ std::string report_page(const std::vector<CaseResult>& results, const std::vecto
       "<!doctype html>\n<html lang=en><head><meta charset=utf-8><meta name=viewport "
       "content=\"width=device-width,initial-scale=1\"><title>Grimaldi: validation</title><style>{}</style></head><body>"
       "<main>\n<h1>How far from the truth</h1><p class=lead>Validation of grimaldi {}: {} cases in {:.1f} s</p>\n"
-      "<p><span class=\"verdict{}\">{}</span></p>\n<nav>",
+      "<p><span class=\"verdict{}\">{}</span></p>\n<p class=why>A case passes if its error is as "
+      "small as allowed. Where a theory is known to fail the case says \"as known\": its error has to lie between the "
+      "two values allowed, no better and no worse.</p>\n<nav>",
       page_style, escaped(program_version()), results.size(), seconds, missed > 0 ? " bad" : "",
       missed > 0 ? fmt::format("{} of {} cases miss", missed, results.size())
                  : fmt::format("all {} cases pass", results.size()));
   for (const std::string& suite : suites) html += fmt::format("<a href=\"#{0}\">{0}</a>", escaped(suite));
   html += "</nav>\n";
   if (missed > 0) {
-    html += "<h2>What misses</h2>\n<table><tr><th>case<th>error<th>allowed<th>what was seen</tr>\n";
+    html += "<h2>What misses</h2>\n<table><tr><th>case<th class=n>error<th class=n>allowed<th>what was seen</tr>\n";
     for (const CaseResult& result : results)
       if (!result.passed)
         html += fmt::format("<tr class=miss><td><code>{}</code><td class=n>{:.3g}{}<td class=n>{}<td>{}</tr>\n",
@@ -159,12 +174,12 @@ std::string report_page(const std::vector<CaseResult>& results, const std::vecto
     html += "</table>\n";
   }
   html += "<h2 id=theories>Where each theory is good, and where it fails</h2>\n";
-  for (const std::string& sentence : theory_words(results)) html += "<p>" + escaped(sentence) + "</p>\n";
+  for (const std::string& sentence : theory_words(results)) html += "<p>" + marked(sentence) + "</p>\n";
   html += aperture_heat(results);
   for (const std::string& suite : suites) {
     html += fmt::format("<h2 id=\"{0}\">{0}</h2>\n", escaped(suite));
     const std::string sentence = suite_words(suite);
-    if (!sentence.empty()) html += "<p>" + escaped(sentence) + "</p>\n";
+    if (!sentence.empty()) html += "<p>" + marked(sentence) + "</p>\n";
     html += figures_html(figures, suite) + table_html(results, suite);
   }
   return html + "</main></body></html>\n";

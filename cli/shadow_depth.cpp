@@ -12,8 +12,12 @@ namespace {
 /// The way around one edge.
 struct Way {
   double detour;
-  Vec3 point;
+  const Wedge* wedge;
+  double along;  // m from the edge's start
 };
+
+// As std::hypot, which guards against overflow and takes ten times as long.
+double hypotenuse(double a, double b) { return std::sqrt(a * a + b * b); }
 
 /// Over the point of the edge where the way is shortest: both legs make one angle with the edge, else its nearer end.
 Way way_around(const Wedge& wedge, const Vec3& from, const Vec3& to, double straight) {
@@ -23,9 +27,18 @@ Way way_around(const Wedge& wedge, const Vec3& from, const Vec3& to, double stra
                off_b = std::sqrt(std::max(0.0, norm2(b) - along_b * along_b));
   const double share = off_a + off_b > 0 ? off_a / (off_a + off_b) : 0.5;
   const double t = std::clamp(along_a + share * (along_b - along_a), 0.0, wedge.length);
-  const double detour = std::hypot(off_a, along_a - t) + std::hypot(off_b, along_b - t) - straight;
-  return {std::max(0.0, detour), wedge.point(t) + 1e-3 * wedge.bisector()};  // 1 mm off the edge, into the open
+  const double detour = hypotenuse(off_a, along_a - t) + hypotenuse(off_b, along_b - t) - straight;
+  return {std::max(0.0, detour), &wedge, t};
 }
+
+/// True if `point` lies behind both faces: there is no wave of the edge inside its own wedge.
+bool inside_wedge(const Wedge& wedge, const Vec3& point) {
+  const Vec3 ray = point - wedge.start;
+  return dot(wedge.normal0, ray) < 0 && dot(wedge.normaln(), ray) < 0;
+}
+
+/// Where the way passes: 1 mm off the edge, into the open.
+Vec3 passing_point(const Way& way) { return way.wedge->point(way.along) + 1e-3 * way.wedge->bisector(); }
 
 }  // namespace
 
@@ -66,14 +79,20 @@ double ShadowDepth::operator()(const Vec3& from, const Vec3& to, double lit_limi
     if (distance(from, group.centre) + distance(group.centre, to) - 2 * group.radius > straight + most) continue;
     for (const std::uint32_t i : group.wedges) {
       const Way way = way_around(scene_.wedges.wedges[i], from, to, straight);
-      if (way.detour <= most) ways.push_back(way);
+      if (way.detour <= most && !inside_wedge(*way.wedge, to) && !inside_wedge(*way.wedge, from)) ways.push_back(way);
     }
   }
-  std::sort(ways.begin(), ways.end(), [](const Way& a, const Way& b) { return a.detour < b.detour; });
-  for (const Way& way : ways)
+  // Mostly one of the first sees both ends: a heap sorts no further than it is asked.
+  const auto longer = [](const Way& a, const Way& b) { return a.detour > b.detour; };
+  std::make_heap(ways.begin(), ways.end(), longer);
+  for (auto end = ways.end(); end != ways.begin(); --end) {
+    std::pop_heap(ways.begin(), end, longer);
+    const Way& way = *(end - 1);
+    const Vec3 point = passing_point(way);
     // Down in the street fewer edges are in sight than from a mast: ask there first.
-    if (tracer_.visible(way.point, to) && tracer_.visible(from, way.point))
+    if (tracer_.visible(point, to) && tracer_.visible(from, point))
       return (lit ? -2 : 2) * std::sqrt(way.detour / wavelength_);
+  }
   return lit ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
 }
 

@@ -10,7 +10,8 @@
 
 namespace grimaldi {
 
-/// The parameter of a knife edge between two points: the edge that leads around with the least detour and sees both.
+/// The parameter of a knife edge between two points: the edge that leads around with the least detour and sees both,
+/// neither of them inside its own wedge.
 class ShadowDepth {
  public:
   /// Sorts the edges into groups that lie together. `scene` and `tracer` must outlive it; wavelength in m.

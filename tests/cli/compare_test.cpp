@@ -9,8 +9,10 @@
 #include "cli/comparison_page.h"
 #include "cli/difference_picture.h"
 #include "cli/shadow_depth.h"
+#include "core/constants.h"
 #include "tests/cli/program.h"
 #include "tests/propagation/runs.h"
+#include "tests/scenes/solids.h"
 
 namespace grimaldi {
 namespace {
@@ -104,7 +106,7 @@ TEST_F(Compare, TheReportPageIsWholeInItself) {
     EXPECT_EQ(count(std::string("</") + tag + ">"),
               count(std::string("<") + tag + ">") + count(std::string("<") + tag + " "))
         << tag;
-  EXPECT_NE(page.find("Believe UTD in the shadow region"), std::string::npos);
+  EXPECT_NE(page.find("<td class=v>UTD"), std::string::npos);  // brick houses are solid
 }
 
 // Behind a thin screen both theories are one law: K. of the half-plane, 0.02 dB in the engine.
@@ -183,6 +185,21 @@ TEST(ShadowDepth, OfTheHalfPlaneIsThatOfTheKnifeEdge) {
   EXPECT_EQ(depth(30), -infinite);
 }
 
+// The ground is so large that a ray passes over what lies within millimetres of its ends, the faces of the edge too.
+TEST(ShadowDepth, NoEdgeLeadsIntoItsOwnWedge) {
+  Diagnostics diagnostics;
+  const Scene scene = build_scene(solids::scene({solids::box({-10, -10, 0}, {10, 10, 10}, false), solids::ground(5e3)}),
+                                  {}, diagnostics);
+  const Tracer tracer(scene);
+  ASSERT_GT(tracer.surface_gap(), 2e-3);
+  const ShadowDepth around(scene, tracer, 0.1);
+  EXPECT_EQ(around({-60, 1, 15}, {1, 2, 5}, 1e3, 1e3), infinite);
+  // 0.02: the way passes 1 mm off the edge. Behind the wall over the roof's far edge: √(70² + 5²) + √(10² + 8.5²) −
+  // √(80² + 13.5²) m around.
+  const double detour = std::hypot(70, 5) + std::hypot(10, 8.5) - std::hypot(80, 13.5);
+  EXPECT_NEAR(around({-60, 1, 15}, {20, 1, 1.5}, 1e3, 1e3), 2 * std::sqrt(detour / 0.1), 0.02);
+}
+
 /// A grid of n cells in a row on the lit side of a half-plane, with the gains of both theories; errors of 1 %.
 struct MadeUp {
   Scene scene = test::built_in("half-plane");
@@ -210,7 +227,7 @@ struct MadeUp {
     map.model_gain.assign(edge_model_count * gains.size(), 0.0);
     for (std::size_t i = 0; i < gains.size(); ++i) map.mechanism_gain[3 * gains.size() + i] = gains[i];
   }
-  Comparison compare() const { return compare_results(scene, tracer, plan, fsd, utd); }
+  Comparison compare() const { return compare_results(scene, tracer, plan, fsd, utd).value(); }
 };
 
 TEST(Comparison, CountsCellsAndDecibels) {
@@ -220,16 +237,16 @@ TEST(Comparison, CountsCellsAndDecibels) {
   using Sort = Comparison::Sort;
   EXPECT_EQ(c.sort, (std::vector<Sort>{Sort::inside, Sort::neither, Sort::only_fsd, Sort::only_utd, Sort::both,
                                        Sort::both, Sort::both, Sort::both}));
-  EXPECT_EQ(c.only_fsd, 1u);
-  EXPECT_EQ(c.only_utd, 1u);
-  EXPECT_EQ(c.all.cells, 4u);
+  EXPECT_EQ(c.first().only_fsd, 1u);
+  EXPECT_EQ(c.first().only_utd, 1u);
+  EXPECT_EQ(c.first().all.cells, 4u);
   EXPECT_NEAR(c.difference_dB[5], 10 * std::log10(2), 1e-12);
-  EXPECT_NEAR(c.all.median, 0, 1e-12);  // nearest rank: the second of four
-  EXPECT_NEAR(c.all.p95_abs, 10, 1e-12);
-  EXPECT_EQ(c.all.beyond_noise, 0.5);
-  EXPECT_EQ(c.regions[0].cells, 4u);  // 100 m above the edge: lit
-  EXPECT_EQ(c.mechanisms[3].cells, 4u);
-  EXPECT_EQ(c.mechanisms[0].cells, 0u);
+  EXPECT_NEAR(c.first().all.median, 0, 1e-12);  // nearest rank: the second of four
+  EXPECT_NEAR(c.first().all.p95_abs, 10, 1e-12);
+  EXPECT_EQ(c.first().all.beyond_noise, 0.5);
+  EXPECT_EQ(c.first().regions[0].cells, 4u);  // 100 m above the edge: lit
+  EXPECT_EQ(c.first().mechanisms[3].cells, 4u);
+  EXPECT_EQ(c.first().mechanisms[0].cells, 0u);
   EXPECT_FALSE(c.solid);
   const std::vector<std::string> words = comparison_words(made.plan, c, made.fsd, made.utd);
   const auto told = [&](const std::string& part) {
@@ -241,11 +258,63 @@ TEST(Comparison, CountsCellsAndDecibels) {
   EXPECT_TRUE(told("1 cell reached by FSD alone, 1 cell by UTD alone"));
 }
 
+/// A row of cells 5 m below the edge of the half-plane, as is the transmitter, in these bands.
+struct BehindTheEdge : MadeUp {
+  explicit BehindTheEdge(const std::vector<double>& frequencies) : MadeUp(row(), row()) {
+    plan.request.transmitters.front().position = {-50, 0, -5};
+    plan.grid.z = -5;
+    plan.frequency = frequencies;
+    plan.wavenumber.clear();
+    for (const double f : frequencies) plan.wavenumber.push_back(2 * pi * f / speed_of_light);
+    std::vector<double> of_fsd, of_utd;
+    for (std::size_t band = 0; band < frequencies.size(); ++band)
+      for (std::size_t cell = 0; cell < row().size(); ++cell)
+        of_fsd.push_back(1), of_utd.push_back(frequencies[band] / 1e9);
+    fsd = utd = {};
+    fill(fsd, of_fsd);
+    fill(utd, of_utd);
+  }
+  static std::vector<double> row() { return std::vector<double>(10, 1.0); }
+};
+
+// v goes with the root of the frequency; each band of a comparison is what that band alone would be.
+TEST(Comparison, EachBandIsAsItIsAlone) {
+  const BehindTheEdge both({4e9, 1e9});
+  const Comparison c = both.compare();
+  ASSERT_EQ(c.bands.size(), 2u);
+  for (std::size_t band = 0; band < 2; ++band) {
+    const Comparison alone = BehindTheEdge({both.plan.frequency[band]}).compare();
+    EXPECT_EQ(c.bands[band].frequency, both.plan.frequency[band]);
+    EXPECT_EQ(c.bands[band].all.median, alone.first().all.median);
+    for (std::size_t r = 0; r < region_count; ++r)
+      EXPECT_EQ(c.bands[band].regions[r].cells, alone.first().regions[r].cells) << band << " " << r;
+  }
+  EXPECT_NEAR(c.bands[0].all.median, -10 * std::log10(4), 1e-12);
+  EXPECT_EQ(c.bands[0].regions[1].cells, 0u);  // v = 4.4 and more
+  EXPECT_GT(c.bands[1].regions[1].cells, 0u);  // v = 2.2 at the far end
+  const Json json = Json::parse(comparison_json(c, "{}", "{}", {}));
+  ASSERT_EQ(json["bands"].size(), 2u);
+  EXPECT_EQ(json["bands"][1]["frequency_Hz"], 1e9);
+  for (const char* key : {"difference_dB", "regions", "mechanisms", "profiles"})
+    EXPECT_EQ(json["bands"][0][key], json[key]) << key;
+}
+
+TEST(Comparison, TellsHowFarItIsAndStops) {
+  const MadeUp made({1, 1}, {1, 1});
+  std::vector<double> shares;
+  std::atomic<bool> stop = false;
+  const auto progress = [&](double share) { shares.push_back(share); };
+  EXPECT_TRUE(compare_results(made.scene, made.tracer, made.plan, made.fsd, made.utd, progress, &stop).has_value());
+  EXPECT_EQ(shares, std::vector<double>{1});  // one row
+  stop = true;
+  EXPECT_FALSE(compare_results(made.scene, made.tracer, made.plan, made.fsd, made.utd, progress, &stop).has_value());
+}
+
 TEST(Comparison, NothingReachedIsNoFault) {
   const MadeUp made({NAN, 0}, {NAN, 0});
   const Comparison c = made.compare();
-  EXPECT_EQ(c.all.cells, 0u);
-  EXPECT_TRUE(std::isnan(c.all.median));
+  EXPECT_EQ(c.first().all.cells, 0u);
+  EXPECT_TRUE(std::isnan(c.first().all.median));
   EXPECT_GT(difference_picture(made.scene, made.plan, made.fsd, made.utd, c).width(), 1000);
   const Json json = Json::parse(comparison_json(c, "{}", "{}", {}));
   EXPECT_TRUE(json["difference_dB"]["median"].is_null());
