@@ -228,7 +228,7 @@ TEST(ObjectWave, StaysBelowItsBound) {
         if (!UnfoldedSequence(scene, source, interactions, &plan.small_objects).solve(receiver, 0.3, geometry))
           continue;
         std::array<std::complex<double>, 2> field[1];
-        arrival_field(scene, plan, plan.request.transmitters[0], interactions, geometry, true, field);
+        arrival_field(scene, plan, plan.request.transmitters[0], interactions, geometry, true, 1, field);
         EXPECT_LE(received_power(field[0], Polarisation::both), power_bound(scene, plan, interactions, geometry));
         ++asked;
       }
