@@ -17,18 +17,20 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// T of line 6: which part of each term there is, with the ends of the edge.
+/// T of line 6: which part of each term there is, with the ends of the edge. `alone`: argument that its terms have
+/// without the neighbouring edges over that with them, so that a wave that begins where one of these ends has the same
+/// share of the ends.
 class EndWeights {
  public:
-  EndWeights(const Wedge& wedge, const EdgePassage& passage, double wavelength, double wavenumber)
-      : inside_(passage.inside ? 1.0 : 0.0) {
+  EndWeights(const Wedge& wedge, const EdgePassage& passage, double wavelength, double wavenumber, double alone)
+      : inside_(passage.inside ? 1.0 : 0.0), alone_(alone) {
     add(passage.detour_start, wavelength, wavenumber, passage.along >= 0);
     add(passage.detour_end, wavelength, wavenumber, passage.along <= wedge.length);
   }
 
   Complex of(const EdgeTerm& term) const {
     Complex weight = inside_;
-    for (const End& end : ends_) weight += edge_end_share(term.wave.argument, end.argument) * end.wave;
+    for (const End& end : ends_) weight += edge_end_share(alone_ * term.wave.argument, end.argument) * end.wave;
     return weight;
   }
 
@@ -41,6 +43,7 @@ class EndWeights {
     ends_[count_++] = {std::sqrt(wavenumber * detour), edge_end_wave(detour, wavelength, wavenumber, inside)};
   }
   double inside_;
+  double alone_;
   std::array<End, 2> ends_{};
   std::size_t count_ = 0;
 };
@@ -206,7 +209,9 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
       const EdgePassage& passage = geometry.edges[edge_number];
       const Wedge& wedge = scene.wedges.wedges[passage.wedge];
       const bool first = edge_number == 0, last = edge_number + 1 == edges;
-      const EndWeights ends(wedge, passage, wavelength, wavenumber);
+      const auto uncoupled = [&](std::size_t pair) { return 1 - chain.coupling[pair] * chain.coupling[pair]; };
+      const double alone = (first ? 1 : uncoupled(edge_number - 1)) * (last ? 1 : uncoupled(edge_number));
+      const EndWeights ends(wedge, passage, wavelength, wavenumber, 1 / std::sqrt(alone));
       std::uint32_t leaves = no_index;
       if (!last && is_edge(interactions[i + 1])) leaves = grazed_face(scene, passage, geometry.edges[edge_number + 1]);
       // The wave along a face that both edges bound is there as itself and as its image.
