@@ -17,36 +17,68 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// T of line 6: which part of each term there is, with the ends of the edge. `alone`: argument that its terms have
-/// without the neighbouring edges over that with them, so that a wave that begins where one of these ends has the same
-/// share of the ends.
+/// Argument of a term beyond which the ends of the edge next to it no longer couple with it; a fade from 1 less.
+constexpr double coupled_end = 2;
+
+/// Power of an end's wave below which the coupling does not count.
+constexpr double negligible_end = 1e-4;
+
+/// T of line 6: which part of each term there is, with the ends of the edge. `alone`: arguments that its terms
+/// have without the neighbouring edges over those with them, the ends' likewise: a wave that begins where one over a
+/// neighbour changes its sign has the same share of the ends.
 class EndWeights {
  public:
-  EndWeights(const Wedge& wedge, const EdgePassage& passage, double wavelength, double wavenumber, double alone)
-      : inside_(passage.inside ? 1.0 : 0.0), alone_(alone) {
+  EndWeights(const Wedge& wedge, const EdgePassage& passage, double wavelength, double wavenumber)
+      : inside_(passage.inside ? 1.0 : 0.0) {
     add(passage.detour_start, wavelength, wavenumber, passage.along >= 0);
     add(passage.detour_end, wavelength, wavenumber, passage.along <= wedge.length);
   }
 
   Complex of(const EdgeTerm& term) const {
     Complex weight = inside_;
-    for (const End& end : ends_) weight += edge_end_share(alone_ * term.wave.argument, end.argument) * end.wave;
+    for (const End& end : ends_) weight += edge_end_share(term.wave.argument, end.argument) * end.wave;
     return weight;
+  }
+
+  /// The same, there `weight`, in a pair with a term of the one other edge: where that is near its boundary, the ends
+  /// couple with it. `alone`: the term's argument without the other edge; `coupling`: of the other edge's aperture with
+  /// the way along this edge.
+  Complex of_pair(Complex weight, double alone, const EdgeTerm& other, double coupling) const {
+    const double near = std::min(coupled_end - other.wave.argument, 1.0);
+    Complex coupled = inside_;
+    const double root = std::sqrt((1 - coupling) * (1 + coupling));
+    for (std::size_t i = 0; i < count_; ++i) {
+      const End& end = ends_[i];
+      const double w = i == 0 ? coupling : -coupling, b = other.sign * other.wave.argument;
+      const double share = edge_end_share(alone, root * (end.dark ? end.argument : -end.argument) + w * b);
+      if (share * std::norm(end.wave) * std::abs(w) < negligible_end) {
+        coupled += share * end.wave;
+        continue;
+      }
+      const Complex both = end_and_edge_wave(end.argument, end.dark, other.wave.argument, other.sign > 0, w);
+      coupled += share / other.sign * both / other.wave.wave * std::polar(1.0, -end.argument * end.argument);
+    }
+    return weight + near * (coupled - weight);
   }
 
  private:
   struct End {
     double argument;  ///< of its wave, √(kδ)
+    bool dark;
     Complex wave;
   };
   void add(double detour, double wavelength, double wavenumber, bool inside) {
-    ends_[count_++] = {std::sqrt(wavenumber * detour), edge_end_wave(detour, wavelength, wavenumber, inside)};
+    ends_[count_++] = {std::sqrt(wavenumber * detour), !inside, edge_end_wave(detour, wavelength, wavenumber, inside)};
   }
   double inside_;
-  double alone_;
   std::array<End, 2> ends_{};
   std::size_t count_ = 0;
 };
+
+/// True if a term of an edge is so near its boundary that the ends of the edge next to it couple with it.
+bool couples(const EdgeTerms& terms) {
+  return std::any_of(terms.begin(), terms.end(), [](const EdgeTerm& t) { return t.wave.argument < coupled_end; });
+}
 
 /// What a face does to a wave in the cone frames of an edge: rows β̂, φ̂ of the image wave, columns β̂, φ̂ of the incident
 /// one.
@@ -193,6 +225,8 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
     std::size_t waves = 1, edge_number = 0;
     double weight = 1;
     EdgeTerms before;
+    std::optional<EndWeights> ends_before;
+    std::array<Complex, max_terms> weights_before, weights;
     std::uint32_t came = no_index;
     for (std::size_t i = 0; i < interactions.size(); ++i) {
       if (!is_edge(interactions[i])) {
@@ -209,9 +243,7 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
       const EdgePassage& passage = geometry.edges[edge_number];
       const Wedge& wedge = scene.wedges.wedges[passage.wedge];
       const bool first = edge_number == 0, last = edge_number + 1 == edges;
-      const auto uncoupled = [&](std::size_t pair) { return 1 - chain.coupling[pair] * chain.coupling[pair]; };
-      const double alone = (first ? 1 : uncoupled(edge_number - 1)) * (last ? 1 : uncoupled(edge_number));
-      const EndWeights ends(wedge, passage, wavelength, wavenumber, 1 / std::sqrt(alone));
+      const EndWeights ends(wedge, passage, wavelength, wavenumber);
       std::uint32_t leaves = no_index;
       if (!last && is_edge(interactions[i + 1])) leaves = grazed_face(scene, passage, geometry.edges[edge_number + 1]);
       // The wave along a face that both edges bound is there as itself and as its image.
@@ -231,6 +263,24 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
         else
           arriving[a] = {wave[a].x, 0.0};
       }
+      for (std::size_t t = 0; t < terms.count; ++t) weights[t] = ends.of(terms.term[t]);
+      // Weights of both edges of two in a pair of their terms, where ends couple with a term.
+      const bool ends_couple = edges == 2 && last && (couples(before) || couples(terms));
+      const double coupling = last && !first ? chain.coupling[edge_number - 1] : 0;
+      const double apart = 1 / std::sqrt((1 - coupling) * (1 + coupling));
+      const auto both_ends = [&](std::size_t a, std::size_t t) {
+        const EdgeTerm &one = before.term[a], &two = terms.term[t];
+        const double w = -coupling * one.lit_out * two.lit_in;
+        const double q1 = one.sign * one.wave.argument, q2 = two.sign * two.wave.argument;
+        Complex weight1 = weights_before[a], weight2 = weights[t];
+        if (two.wave.argument < coupled_end)
+          weight1 = ends_before->of_pair(weight1, apart * (q1 + w * q2), two, -two.lit_in * chain.end_coupling[0]);
+        if (one.wave.argument < coupled_end)
+          weight2 = ends.of_pair(weight2, apart * (q2 + w * q1), one, one.lit_out * chain.end_coupling[1]);
+        return weight1 * weight2;
+      };
+      for (std::size_t a = 0; edges == 2 && last && !ends_couple && a < waves; ++a)
+        for (Complex& part : arriving[a]) part *= weights_before[a];
       // Per term: all that arrives, through its face. A first edge leaves its factors to the pairs with the second.
       std::array<std::array<Complex, 2>, max_terms> leaving{};
       for (std::size_t t = 0; t < terms.count; ++t) {
@@ -244,11 +294,13 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
             factor = continued_wave(before.term[a], term, chain.coupling[edge_number - 1]);
           else if (last)
             factor = term.value();
+          if (ends_couple) factor *= both_ends(a, t);
           sum[0] += factor * arriving[a][0];
           sum[1] += factor * arriving[a][1];
         }
         const auto seen = faces ? at_faces->seen_at(term.boundary, sum) : sum;
-        const Complex there = ends.of(term);
+        // The first of two edges leaves its weights to the second.
+        const Complex there = ends_couple || (edges == 2 && first) ? Complex(1) : weights[t];
         leaving[last ? 0 : t][0] += there * seen[0];
         leaving[last ? 0 : t][1] += there * seen[1];
       }
@@ -260,6 +312,8 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
           wave[a].x = leaving[a][0];
       }
       before = terms;
+      ends_before = ends;
+      weights_before = weights;
       came = leaves;
       ++edge_number;
     }
