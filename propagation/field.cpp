@@ -23,9 +23,7 @@ constexpr double coupled_end = 2;
 /// Power of an end's wave below which the coupling does not count.
 constexpr double negligible_end = 1e-4;
 
-/// T of line 6: which part of each term there is, with the ends of the edge. `alone`: arguments that its terms
-/// have without the neighbouring edges over those with them, the ends' likewise: a wave that begins where one over a
-/// neighbour changes its sign has the same share of the ends.
+/// T of line 6: which part of each term there is, with the ends of the edge.
 class EndWeights {
  public:
   EndWeights(const Wedge& wedge, const EdgePassage& passage, double wavelength, double wavenumber)
@@ -40,9 +38,9 @@ class EndWeights {
     return weight;
   }
 
-  /// The same, there `weight`, in a pair with a term of the one other edge: where that is near its boundary, the ends
-  /// couple with it. `alone`: the term's argument without the other edge; `coupling`: of the other edge's aperture with
-  /// the way along this edge.
+  /// The same, there `weight`, in a pair with a term of the one other edge, of an argument below coupled_end: the ends
+  /// couple with it, and share as they do without it. `alone`: the term's argument without the other edge; `coupling`:
+  /// of the other edge's aperture with the way along this edge.
   Complex of_pair(Complex weight, double alone, const EdgeTerm& other, double coupling) const {
     const double near = std::min(coupled_end - other.wave.argument, 1.0);
     Complex coupled = inside_;

@@ -63,6 +63,9 @@ TEST(EdgeModel, PolygonFormUpToAFresnelNumberOfATenth) {
   EXPECT_EQ(polygon_share(6.33, true, 100, 100, 0.5), 0);
   // Nowhere within a diameter.
   EXPECT_EQ(polygon_share(2, true, 1.99, 1e4, 10), 0);
+  // Nothing while a boundary may cut the object, all where it is a diameter off.
+  EXPECT_EQ(clear_share(2, 1), 0);
+  EXPECT_EQ(clear_share(2, 2), 1);
   // The largest diameter over a reach is that of the middle.
   const double largest = largest_small_diameter(200, 0.5);
   EXPECT_GT(polygon_share(0.999 * largest, false, 100, 100, 0.5), 0);
