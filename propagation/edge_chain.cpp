@@ -38,6 +38,8 @@ double invert(std::array<std::array<double, max_edges>, max_edges>& c, std::size
   return determinant;
 }
 
+constexpr double nearly_one = 1 - 1e-12;  ///< of couplings
+
 /// True if the azimuth of a way of length s from the edge runs along its face `patch`.
 bool along_face(const Wedge& wedge, std::uint32_t patch, double azimuth, double s) {
   const double grazing = 5e-3 / s;  // rad; edges lie on their face to the millimetres of a patch's plane
@@ -126,7 +128,7 @@ EdgeChain edge_chain(const Scene& scene, std::span<const Interaction> interactio
     chain.distance[0] = before[0] * behind[0] / whole * rest;
     chain.distance[1] = before[1] * behind[1] / whole * rest;
     chain.coupling[0] = c * std::sqrt(w2);
-    for (double& w : chain.end_coupling) w *= std::sqrt(w2);
+    for (double& w : chain.end_coupling) w = std::clamp(w * std::sqrt(w2), -nearly_one, nearly_one);
     return chain;
   }
   std::array<std::array<double, max_edges>, max_edges> k{};
@@ -135,7 +137,6 @@ EdgeChain edge_chain(const Scene& scene, std::span<const Interaction> interactio
       k[i][j] = k[j][i] = before[i] * behind[j] / whole * (i == j ? 1 : std::clamp(cosine[i][j], -1.0, 1.0));
   double share = invert(k, n);
   for (std::size_t i = 0; i < n; ++i) share *= chain.distance[i] = 1 / k[i][i];
-  constexpr double nearly_one = 1 - 1e-12;
   for (std::size_t i = 0; i + 1 < n; ++i)
     chain.coupling[i] =
         std::clamp(-k[i][i + 1] * std::sqrt(chain.distance[i] * chain.distance[i + 1]), -nearly_one, nearly_one);

@@ -265,7 +265,7 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
       // Weights of both edges of two in a pair of their terms, where ends couple with a term.
       const bool ends_couple = edges == 2 && last && (couples(before) || couples(terms));
       const double coupling = last && !first ? chain.coupling[edge_number - 1] : 0;
-      const double apart = 1 / std::sqrt((1 - coupling) * (1 + coupling));
+      const double apart = 1 / std::sqrt(std::max((1 - coupling) * (1 + coupling), 1e-12));
       const auto both_ends = [&](std::size_t a, std::size_t t) {
         const EdgeTerm &one = before.term[a], &two = terms.term[t];
         const double w = -coupling * one.lit_out * two.lit_in;
