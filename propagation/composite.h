@@ -19,7 +19,7 @@ namespace grimaldi {
 /// What one path brings to one point.
 struct Arrival {
   SequenceHash hash = 0;
-  SequenceHash object = 0;  ///< object_name of the path
+  double whole = 1;  ///< share of its object's wave that the edges of others leave (object_fields)
   std::span<const Interaction> interactions;
   PathGeometry geometry;
   std::vector<std::array<std::complex<double>, 2>> field;  ///< [band] → V, H (sound: pressure, 0)

@@ -36,6 +36,8 @@ double invert(std::array<std::array<double, max_edges>, max_edges>& c, std::size
   return determinant;
 }
 
+constexpr double nearly_one = 1 - 1e-12;  ///< of couplings
+
 /// True if the azimuth of a way of length s from the edge runs along its face `patch`.
 bool along_face(const Wedge& wedge, std::uint32_t patch, double azimuth, double s) {
   const double grazing = 5e-3 / s;  // rad; edges lie on their face to the millimetres of a patch's plane
@@ -86,11 +88,13 @@ EdgeChain edge_chain(const Scene& scene, std::span<const Interaction> interactio
   // φ̂ of the edges passed, carried along the ray: for each its cosine with φ̂ of every later edge.
   std::array<std::array<double, max_edges>, max_edges> cosine{};
   std::array<Vec3, max_edges> carried;
+  Vec3 way_along{};  // of two edges the first's direction, carried too
   std::size_t passed = 0;
   for (std::size_t i = 0; i < interactions.size(); ++i) {
     if (!is_edge(interactions[i])) {
       const Vec3& normal = scene.patches.patches[interactions[i]].normal;
       for (std::size_t e = 0; e < passed; ++e) carried[e] -= 2 * dot(carried[e], normal) * normal;
+      way_along -= 2 * dot(way_along, normal) * normal;
       continue;
     }
     const Vec3& direction = scene.wedges.wedges[edges[passed].wedge].direction;
@@ -99,6 +103,7 @@ EdgeChain edge_chain(const Scene& scene, std::span<const Interaction> interactio
       // Only φ̂ is asked for, and of the way here alone.
       const Vec3 phi = normalized(cross(direction, geometry.points[i + 1] - geometry.points[i]));
       cosine[0][1] = dot(carried[0], phi);
+      chain.end_coupling = {dot(way_along, phi) / edges[0].sin_beta, dot(carried[0], direction) / edges[1].sin_beta};
       break;
     }
     const ConeFrame out(direction, normalized(to));
@@ -109,6 +114,7 @@ EdgeChain edge_chain(const Scene& scene, std::span<const Interaction> interactio
         carried[e] = along * out.phi + dot(carried[e], in.beta) * out.beta;
       }
     }
+    way_along = direction;
     carried[passed++] = out.phi;
   }
   if (n == 2) {
@@ -120,6 +126,7 @@ EdgeChain edge_chain(const Scene& scene, std::span<const Interaction> interactio
     chain.distance[0] = before[0] * behind[0] / whole * rest;
     chain.distance[1] = before[1] * behind[1] / whole * rest;
     chain.coupling[0] = c * std::sqrt(w2);
+    for (double& w : chain.end_coupling) w = std::clamp(w * std::sqrt(w2), -nearly_one, nearly_one);
     return chain;
   }
   std::array<std::array<double, max_edges>, max_edges> k{};
@@ -128,7 +135,6 @@ EdgeChain edge_chain(const Scene& scene, std::span<const Interaction> interactio
       k[i][j] = k[j][i] = before[i] * behind[j] / whole * (i == j ? 1 : std::clamp(cosine[i][j], -1.0, 1.0));
   double share = invert(k, n);
   for (std::size_t i = 0; i < n; ++i) share *= chain.distance[i] = 1 / k[i][i];
-  constexpr double nearly_one = 1 - 1e-12;
   for (std::size_t i = 0; i + 1 < n; ++i)
     chain.coupling[i] =
         std::clamp(-k[i][i + 1] * std::sqrt(chain.distance[i] * chain.distance[i + 1]), -nearly_one, nearly_one);

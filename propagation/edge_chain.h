@@ -37,6 +37,8 @@ struct EdgeChain {
   double amplitude = 0;                          ///< of the product of the edges' waves, source of unit strength, 1/m
   std::array<double, max_edges> distance{};      ///< L of each edge, m, without sin²β
   std::array<double, max_edges - 1> coupling{};  ///< w of edges i and i+1; its sign goes with φ̂ of both
+  std::array<double, 2> end_coupling{};  ///< of two edges: of the way along the first with the second's φ̂, and of φ̂ of
+                                         ///< the first with the way along the second
 };
 
 /// Formula: the wave over N edges is the Gaussian integral over N apertures, its displacements along the edges

@@ -34,6 +34,8 @@ double polygon_share(double diameter, bool flat, double s_in, double s_out, doub
   return fade(std::min(far, std::min(s_in, s_out) / (leg_over_diameter * diameter)));
 }
 
+double clear_share(double diameter, double clearance) { return fade(clearance / diameter); }
+
 bool shines_through(const SmallObjects& objects, std::uint32_t wedge, double s_in, double s_out, double wavelength) {
   const SmallObject* object = objects.at(wedge);
   if (object == nullptr || object->kind != ObjectKind::opening) return false;

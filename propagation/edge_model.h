@@ -38,6 +38,12 @@ double utd_share(DiffractionModel model, double length, const EdgePassage& passa
 /// m. Returns: 0 … 1; the same with the legs exchanged. Error: none, it is a choice. Throws: nothing.
 double polygon_share(double diameter, bool flat, double s_in, double s_out, double wavelength);
 
+/// What another edge leaves of that share, of an object of diameter D whose edge's point lies c off the shadow boundary
+/// of the other edge, as seen from the end behind that. Formula: the same fade of x = c/D: 0 up to D/2. So no edge of
+/// the object crosses the boundary while the object is there as a whole, and beyond D the boundary lies clear of it.
+/// Inputs: D > 0, c ≥ 0, m. Returns: 0 … 1. Error: none, it is a choice. Throws: nothing.
+double clear_share(double diameter, double clearance);
+
 /// True if the edge is of an opening that may have a share for these legs from a point of the edge: its wave goes out
 /// in all directions, however far beyond the edge's ends the diffraction point then lies.
 bool shines_through(const SmallObjects& objects, std::uint32_t wedge, double s_in, double s_out, double wavelength);

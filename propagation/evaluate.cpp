@@ -97,11 +97,11 @@ class CellEvaluator {
       for (std::size_t p = 0; p < pairs.size(); ++p)
         if (is_strong(pairs[p]) == strong_ones && (pairs[p].visible >> i & 1)) arrive(place, p);
     settle(place, pairs, [](const Pair&) { return true; });
+    find_fields();
     std::size_t strong = 0;
     for (std::size_t a = 0; a < arrived_; ++a) {
       const Pair& pair = pairs[arrivals_[a].number];
       strong += is_strong(pair);
-      find_field(a);
       if (has_edge(pair) == coarse && !pair.refined)
         add(pair, arrivals_[a], coarse ? point.edge_weight : point.weight, reference_delay);
     }
@@ -121,8 +121,8 @@ class CellEvaluator {
     for (std::size_t p = 0; p < pairs.size(); ++p)
       if (pairs[p].dense >> i & 1) arrive(place, p);
     settle(place, pairs, is_strong);
+    find_fields();
     for (std::size_t a = 0; a < arrived_; ++a) {
-      find_field(a);
       if (const Pair& pair = pairs[arrivals_[a].number]; pair.refined)
         add(pair, arrivals_[a], point.edge_weight, reference_delay);
     }
@@ -186,13 +186,14 @@ class CellEvaluator {
     arrivals_ = std::move(settled);
   }
 
-  void find_field(std::size_t a) {
-    Arrival& arrival = arrivals_[a];
-    arrival.field.resize(plan_.bands());
+  void find_fields() {
     const Transmitter& transmitter = plan_.request.transmitters[transmitter_];
-    arrival.object = object_name(scene_, plan_, transmitter.position, arrival.interactions, arrival.geometry);
-    arrival_field(scene_, plan_, transmitter, arrival.interactions, arrival.geometry,
-                  carries_object({arrivals_.data(), a}, arrival.object), arrival.field);
+    const std::span<Arrival> arrivals(arrivals_.data(), arrived_);
+    for (Arrival& arrival : arrivals) {
+      arrival.field.resize(plan_.bands());
+      path_field(scene_, plan_, transmitter, arrival.interactions, arrival.geometry, arrival.field);
+    }
+    object_fields(scene_, plan_, transmitter, arrivals);
   }
 
   bool has_edge(const Pair& pair) const { return count_edges(discovered_.sequences[pair.sequence]) > 0; }
@@ -217,8 +218,7 @@ class CellEvaluator {
   }
 
   void add_models(const Arrival& arrival, double power) {
-    const auto shares = model_shares(scene_, plan_, plan_.request.transmitters[transmitter_].position,
-                                     arrival.interactions, arrival.geometry);
+    const auto shares = model_shares(scene_, plan_, plan_.request.transmitters[transmitter_].position, arrival);
     for (std::size_t m = 0; m < edge_model_count; ++m) models_[m] += shares[m] * power;
   }
 

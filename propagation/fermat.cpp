@@ -21,6 +21,14 @@ constexpr double last_step = 1e-5;
 /// Beyond an end of an edge its wave is kept while v_V is below this (physics: line 6 of the edge's law).
 constexpr double end_parameter_limit = 3;
 
+/// Of the shortest way from a to b over a line of unit direction (its two half-planes unfolded), m.
+double length_over(const Vec3& start, const Vec3& direction, const Vec3& a, const Vec3& b) {
+  const Vec3 pa = a - start, pb = b - start;
+  const double za = dot(pa, direction), zb = dot(pb, direction);
+  const double ra2 = std::max(0.0, norm2(pa) - za * za), rb2 = std::max(0.0, norm2(pb) - zb * zb);
+  return std::sqrt((za - zb) * (za - zb) + ra2 + rb2 + 2 * std::sqrt(ra2 * rb2));
+}
+
 /// Bounding boxes only sort out; the ray decides.
 bool in_box(const Patch& patch, const Vec3& point) {
   constexpr double slack = 0.01;
@@ -265,11 +273,11 @@ bool UnfoldedSequence::fermat_points(const Vec3& receiver, std::array<double, ma
   return false;
 }
 
-bool UnfoldedSequence::passage(std::size_t i, const Vec3& before, double along, const Vec3& after, double wavelength,
+bool UnfoldedSequence::passage(std::size_t i, std::span<const Vec3> way, double along, double wavelength,
                                EdgePassage& out) const {
   const UnfoldedEdge& edge = edges_[i];
   const Wedge& wedge = scene_->wedges.wedges[edge.wedge];
-  const Vec3 q = edge.point(along);
+  const Vec3 &before = way[i], &q = way[i + 1], &after = way[i + 2];
   const Vec3 in = before - q, away = after - q;
   out.wedge = edge.wedge;
   out.along = along;
@@ -283,15 +291,24 @@ bool UnfoldedSequence::passage(std::size_t i, const Vec3& before, double along, 
   if (out.sin_beta < along_edge) return false;
   // Rounding may put an end that lies on face 0 a hair below it.
   constexpr double rounding = 1e-9;
-  for (const Vec3* way : {&in, &away}) {
-    const double hair = -10 * rounding * (std::abs(way->x) + std::abs(way->y) + std::abs(way->z));
-    if (dot(*way, edge.normal0) < hair && dot(*way, edge.normaln) < hair) return false;
+  for (const Vec3* leg : {&in, &away}) {
+    const double hair = -10 * rounding * (std::abs(leg->x) + std::abs(leg->y) + std::abs(leg->z));
+    if (dot(*leg, edge.normal0) < hair && dot(*leg, edge.normaln) < hair) return false;
   }
   out.inside = along >= 0 && along <= wedge.length;
-  const double over = out.s_in + out.s_out;
   const Vec3 ends[2] = {edge.start, edge.point(wedge.length)};
-  out.detour_start = std::max(0.0, distance(before, ends[0]) + distance(ends[0], after) - over);
-  out.detour_end = std::max(0.0, distance(before, ends[1]) + distance(ends[1], after) - over);
+  // The points on the neighbouring edges move with the end.
+  const auto longer = [&](const Vec3& end, std::size_t neighbour, const Vec3& vertex, const Vec3* beyond, double leg) {
+    if (beyond == nullptr) return distance(end, vertex) - leg;
+    const UnfoldedEdge& next = edges_[neighbour];
+    return length_over(next.start, next.direction, end, *beyond) - leg - distance(vertex, *beyond);
+  };
+  const auto detour = [&](const Vec3& end) {
+    return std::max(0.0, longer(end, i - 1, before, i > 0 ? &way[i - 1] : nullptr, out.s_in) +
+                             longer(end, i + 1, after, i + 1 < edge_count_ ? &way[i + 3] : nullptr, out.s_out));
+  };
+  out.detour_start = detour(ends[0]);
+  out.detour_end = detour(ends[1]);
   if (!out.inside &&
       2 * std::sqrt((along < 0 ? out.detour_start : out.detour_end) / wavelength) >= end_parameter_limit) {
     const Vec3& end = ends[along < 0 ? 0 : 1];
@@ -299,8 +316,8 @@ bool UnfoldedSequence::passage(std::size_t i, const Vec3& before, double along, 
         !shines_through(*objects_, edge.wedge, distance(before, end), distance(end, after), wavelength))
       return false;
   }
-  for (auto [way, phi] : {std::pair{&in, &out.phi_in}, std::pair{&away, &out.phi_out}}) {
-    *phi = std::atan2(dot(*way, edge.normal0), dot(*way, edge.along0));
+  for (auto [leg, phi] : {std::pair{&in, &out.phi_in}, std::pair{&away, &out.phi_out}}) {
+    *phi = std::atan2(dot(*leg, edge.normal0), dot(*leg, edge.along0));
     if (*phi < -rounding) *phi += 2 * pi;
     if (*phi > wedge.exterior_angle + rounding) return false;
     *phi = std::clamp(*phi, 0.0, wedge.exterior_angle);
@@ -343,16 +360,17 @@ bool UnfoldedSequence::solve(const Vec3& receiver, double wavelength, PathGeomet
   std::array<double, max_edges> along{};
   if (!fermat_points(receiver, along)) return false;
   geometry.length = 0;
-  Vec3 before = image_;
+  std::array<Vec3, max_edges + 2> way;
+  way[0] = image_;
+  for (std::size_t i = 0; i < edge_count_; ++i) way[i + 1] = edges_[i].point(along[i]);
+  way[edge_count_ + 1] = receiver;
   for (std::size_t i = 0; i < edge_count_; ++i) {
-    const Vec3 after = i + 1 < edge_count_ ? edges_[i + 1].point(along[i + 1]) : receiver;
     EdgePassage& passed = geometry.edges[i];
-    if (!passage(i, before, along[i], after, wavelength, passed)) return false;
+    if (!passage(i, way, along[i], wavelength, passed)) return false;
     const Wedge& wedge = scene_->wedges.wedges[passed.wedge];
     const double seen = std::clamp(along[i], 0.0, wedge.length);
     geometry.points[edges_[i].position + 1] = wedge.point(seen);
     geometry.length += passed.s_in;
-    before = edges_[i].point(along[i]);
     if (i + 1 == edge_count_) geometry.length += passed.s_out;
   }
   std::size_t first = 0;
@@ -369,8 +387,8 @@ bool UnfoldedSequence::solve(const Vec3& receiver, double wavelength, PathGeomet
     const std::size_t here = edges_[i].position + 1;
     const Vec3& direction = scene_->wedges.wedges[edges_[i].wedge].direction;
     for (const std::size_t next : {here - 1, here + 1}) {
-      const Vec3 way = geometry.points[next] - geometry.points[here];
-      if (norm2(cross(direction, way)) < along_edge * along_edge * norm2(way)) return false;
+      const Vec3 leg = geometry.points[next] - geometry.points[here];
+      if (norm2(cross(direction, leg)) < along_edge * along_edge * norm2(leg)) return false;
     }
   }
   return true;

@@ -22,8 +22,9 @@ struct EdgePassage {
   double sin_beta = 1;         ///< of the angle between ray and edge
   double phi_in = 0,
          phi_out = 0;  ///< φ', φ: azimuths of where the wave comes from and goes to, rad, 0 … exterior angle
-  double detour_start = 0, detour_end = 0;  ///< of the paths over the ends of the edge, m
-  bool inside = true;                       ///< the diffraction point lies on the edge
+  /// Of the paths over the ends of the edge, m; the points on the edges next to it are where that path is shortest.
+  double detour_start = 0, detour_end = 0;
+  bool inside = true;  ///< the diffraction point lies on the edge
 };
 
 /// A path found: points[0] = source, points[count−1] = receiver, between them one point per interaction.
@@ -77,8 +78,8 @@ class UnfoldedSequence {
   void look_from(double along1, double along2);
   bool two_fermat_points(const Vec3& receiver, double& along1, double& along2);
   bool descend(const Vec3& receiver, double& along1, double& along2);
-  bool passage(std::size_t i, const Vec3& before, double along, const Vec3& after, double wavelength,
-               EdgePassage& out) const;
+  /// Of edge i of the unfolded way over all edges, both ends of the path included.
+  bool passage(std::size_t i, std::span<const Vec3> way, double along, double wavelength, EdgePassage& out) const;
   bool solve(const Vec3& receiver, double wavelength, PathGeometry& geometry, bool in_planes);
   bool mirror_points(std::size_t first, std::size_t last, PathGeometry& geometry, bool in_planes) const;
 

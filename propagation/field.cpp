@@ -17,6 +17,12 @@ namespace {
 
 using Complex = std::complex<double>;
 
+/// Argument of a term beyond which the ends of the edge next to it no longer couple with it; a fade from 1 less.
+constexpr double coupled_end = 2;
+
+/// Power of an end's wave below which the coupling does not count.
+constexpr double negligible_end = 1e-4;
+
 /// T of line 6: which part of each term there is, with the ends of the edge.
 class EndWeights {
  public:
@@ -32,18 +38,45 @@ class EndWeights {
     return weight;
   }
 
+  /// The same, there `weight`, in a pair with a term of the one other edge, of an argument below coupled_end: the ends
+  /// couple with it, and share as they do without it. `alone`: the term's argument without the other edge; `coupling`:
+  /// of the other edge's aperture with the way along this edge.
+  Complex of_pair(Complex weight, double alone, const EdgeTerm& other, double coupling) const {
+    const double near = std::min(coupled_end - other.wave.argument, 1.0);
+    Complex coupled = inside_;
+    const double root = std::sqrt((1 - coupling) * (1 + coupling));
+    for (std::size_t i = 0; i < count_; ++i) {
+      const End& end = ends_[i];
+      const double w = i == 0 ? coupling : -coupling, b = other.sign * other.wave.argument;
+      const double share = edge_end_share(alone, root * (end.dark ? end.argument : -end.argument) + w * b);
+      if (share * std::norm(end.wave) * std::abs(w) < negligible_end) {
+        coupled += share * end.wave;
+        continue;
+      }
+      const Complex both = end_and_edge_wave(end.argument, end.dark, other.wave.argument, other.sign > 0, w);
+      coupled += share / other.sign * both / other.wave.wave * std::polar(1.0, -end.argument * end.argument);
+    }
+    return weight + near * (coupled - weight);
+  }
+
  private:
   struct End {
     double argument;  ///< of its wave, √(kδ)
+    bool dark;
     Complex wave;
   };
   void add(double detour, double wavelength, double wavenumber, bool inside) {
-    ends_[count_++] = {std::sqrt(wavenumber * detour), edge_end_wave(detour, wavelength, wavenumber, inside)};
+    ends_[count_++] = {std::sqrt(wavenumber * detour), !inside, edge_end_wave(detour, wavelength, wavenumber, inside)};
   }
   double inside_;
   std::array<End, 2> ends_{};
   std::size_t count_ = 0;
 };
+
+/// True if a term of an edge is so near its boundary that the ends of the edge next to it couple with it.
+bool couples(const EdgeTerms& terms) {
+  return std::any_of(terms.begin(), terms.end(), [](const EdgeTerm& t) { return t.wave.argument < coupled_end; });
+}
 
 /// What a face does to a wave in the cone frames of an edge: rows β̂, φ̂ of the image wave, columns β̂, φ̂ of the incident
 /// one.
@@ -201,6 +234,8 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
     std::size_t waves = 1, edge_number = 0;
     double weight = 1;
     EdgeTerms before;
+    std::optional<EndWeights> ends_before;
+    std::array<Complex, max_terms> weights_before, weights;
     std::uint32_t came = no_index;
     for (std::size_t i = 0; i < interactions.size(); ++i) {
       if (!is_edge(interactions[i])) {
@@ -243,6 +278,24 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
       std::array<ChainWave<Pair>, max_terms> arriving;
       for (std::size_t a = 0; a < waves; ++a)
         arriving[a] = {in_frame(wave[a].whole), edge_number > 1 ? in_frame(wave[a].slope) : Pair{}};
+      for (std::size_t t = 0; t < terms.count; ++t) weights[t] = ends.of(terms.term[t]);
+      // Weights of both edges of two in a pair of their terms, where ends couple with a term.
+      const bool ends_couple = edges == 2 && last && (couples(before) || couples(terms));
+      const double coupling = first ? 0 : chain.coupling[edge_number - 1];
+      const double apart = 1 / std::sqrt(std::max((1 - coupling) * (1 + coupling), 1e-12));
+      const auto both_ends = [&](std::size_t a, std::size_t t) {
+        const EdgeTerm &one = before.term[a], &two = terms.term[t];
+        const double w = -coupling * one.lit_out * two.lit_in;
+        const double q1 = one.sign * one.wave.argument, q2 = two.sign * two.wave.argument;
+        Complex weight1 = weights_before[a], weight2 = weights[t];
+        if (two.wave.argument < coupled_end)
+          weight1 = ends_before->of_pair(weight1, apart * (q1 + w * q2), two, -two.lit_in * chain.end_coupling[0]);
+        if (one.wave.argument < coupled_end)
+          weight2 = ends.of_pair(weight2, apart * (q2 + w * q1), one, one.lit_out * chain.end_coupling[1]);
+        return weight1 * weight2;
+      };
+      for (std::size_t a = 0; edges == 2 && last && !ends_couple && a < waves; ++a)
+        for (Complex& part : arriving[a].whole) part *= weights_before[a];
       // Per term: all that arrives, through its face. A first edge leaves its factors to the pairs with the second.
       std::array<ChainWave<Pair>, max_terms> leaving{};
       for (std::size_t t = 0; t < terms.count; ++t) {
@@ -251,7 +304,6 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
         for (std::size_t a = 0; a < waves; ++a) {
           const ChainWave<Pair>& w = arriving[a];
           if (edges > 2 && !first) {
-            const double coupling = chain.coupling[edge_number - 1];
             add(edge_number == 1 ? first_step(before.term[a], term, coupling)
                                  : next_step(before.term[a], term, coupling),
                 w, sum);
@@ -262,9 +314,11 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
             factor = pair_wave(before.term[a], term, chain.coupling[0]);
           else if (last)
             factor = term.value();
+          if (ends_couple) factor *= both_ends(a, t);
           for (std::size_t p = 0; p < 2; ++p) sum.whole[p] += factor * w.whole[p];
         }
-        const Complex there = ends.of(term);
+        // The first of two edges leaves its weights to the second.
+        const Complex there = ends_couple || (edges == 2 && first) ? Complex(1) : weights[t];
         const auto leave = [&](const Pair& w, Pair& to) {
           const auto seen = faces ? at_faces->seen_at(term.boundary, w) : w;
           to[0] += there * seen[0];
@@ -280,6 +334,8 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
         if (!first && !last) wave[a].slope = out_of_frame(leaving[a].slope);
       }
       before = terms;
+      ends_before = ends;
+      weights_before = weights;
       came = leaves;
       ++edge_number;
     }

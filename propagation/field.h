@@ -18,9 +18,11 @@ namespace grimaldi {
 /// coefficients and Jones vectors; an edge by the model of the plan. `utd`: the four terms of Kouyoumjian & Pathak,
 /// faces always on. `fsd`: the free-space diffraction law (three black edges: incident wave and its images in both
 /// faces; the incident one alone where the run has no reflection; the images by the faces' Fresnel dyadics, the mean of
-/// the way there and the way back), weight of its ends T = H + Σ w UV for each term, w by `edge_end_share`, spreading
-/// of the whole chain of edges (`edge_chain`). Neighbouring edges: each pair of their terms by the double-edge wave,
-/// faces between them or not; of three and more the couplings of neighbours, chained (`next_step`). Two edges of one face,
+/// the way there and the way back), weight of its ends T = H + Σ w UV for each term, w by `edge_end_share`; over two
+/// edges, where a term of the other edge has an argument b below 2, U(b) UV becomes `end_and_edge_wave` and w that of
+/// the arguments that term and end have without the other edge (a fade from 1 on). Spreading of the whole chain of
+/// edges (`edge_chain`). Neighbouring edges: each pair of their terms by the double-edge wave, faces between them or
+/// not; of three and more the couplings of neighbours, chained (`next_step`). Two edges of one face,
 /// along which the wave goes: half of the sum over all pairs, with the face's coefficient for that way at both edges:
 /// over a rigid face the wave counts once, of a soft one what is left is the coupling of the slopes. A way of length s
 /// to or from an edge meets a face at no less than 1/√(ks), the width of the transition at grazing incidence. Source:

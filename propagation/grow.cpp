@@ -166,7 +166,7 @@ class Grower {
       if (pair.visible == 0) {
         // The strength at the first point that sees the path speaks for the cell; `evaluate` takes every point for
         // itself.
-        arrival_field(scene_, plan_, transmitter_, interactions, work.geometry, true, work.field);
+        arrival_field(scene_, plan_, transmitter_, interactions, work.geometry, true, 1, work.field);
         strength = received_power(work.field[0], Polarisation::both);
         if (strength < threshold) return Answer::negligible;
       }

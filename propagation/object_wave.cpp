@@ -17,6 +17,30 @@ namespace {
 using Complex = std::complex<double>;
 using BandField = std::array<Complex, 2>;
 
+constexpr std::size_t no_edge = max_edges;
+
+/// Name of the wave of the small object that a path passes over one edge or over two in a row, with its faces: the same
+/// for all such paths. Edge number `other` is left out. 0 if there is none.
+SequenceHash wave_name(const SmallObjects& objects, std::span<const Interaction> interactions,
+                       std::size_t other = no_edge) {
+  SequenceHash name = empty_sequence;
+  std::uint32_t object = no_index;
+  std::size_t edge = 0, passed = 0, last = 0;
+  for (std::size_t i = 0; i < interactions.size(); ++i) {
+    if (!is_edge(interactions[i])) {
+      name = extended(name, interactions[i]);
+      continue;
+    }
+    if (edge++ == other) continue;
+    const std::uint32_t here = objects.of_wedge[index_of(interactions[i])];
+    if (here == no_index || passed == 2 || (passed == 1 && (here != object || i != last + 1))) return 0;
+    if (++passed == 1) name = extended(name, edge_interaction(here));
+    object = here;
+    last = i;
+  }
+  return passed > 0 ? name : 0;
+}
+
 /// A path over one edge of a small object, or over two in a row, unfolded about the object.
 struct ObjectPath {
   const SmallObject* object = nullptr;
@@ -33,15 +57,11 @@ struct ObjectPath {
 ObjectPath object_path(const Scene& scene, const Plan& plan, const Vec3& source,
                        std::span<const Interaction> interactions, const PathGeometry& geometry) {
   ObjectPath path;
-  if (geometry.edge_count == 0 || geometry.edge_count > 2) return path;
-  const SmallObject* const object = plan.small_objects.at(geometry.edges[0].wedge);
+  if (wave_name(plan.small_objects, interactions) == 0) return path;
   const auto& patches = scene.patches.patches;
   while (!is_edge(interactions[path.position])) ++path.position;
   path.edges = geometry.edge_count;
-  if (object == nullptr || !is_edge(interactions[path.position + path.edges - 1]) ||
-      plan.small_objects.at(geometry.edges[path.edges - 1].wedge) != object)
-    return path;
-  path.object = object;
+  path.object = plan.small_objects.at(geometry.edges[0].wedge);
   path.source = source;
   for (std::size_t i = 0; i < path.position; ++i) path.source = mirrored(path.source, patches[interactions[i]]);
   path.receiver = geometry.points[geometry.count - 1];
@@ -190,47 +210,50 @@ bool brings_object(const ObjectPath& path) {
 
 /// Shares of the models in the wave of one edge, at the first band.
 std::array<double, edge_model_count> edge_shares(const Scene& scene, const Plan& plan, const Vec3& source,
-                                                 std::span<const Interaction> interactions,
-                                                 const PathGeometry& geometry, std::size_t edge) {
+                                                 const Arrival& arrival, std::size_t edge) {
   const double wavelength = 2 * pi / plan.wavenumber.front();
   double polygon = 0;
   if (!plan.small_objects.objects.empty())
-    if (const ObjectPath path = object_path(scene, plan, source, interactions, geometry); path.object != nullptr)
-      polygon = path.share(wavelength);
-  const EdgePassage& passage = geometry.edges[edge];
+    if (const ObjectPath path = object_path(scene, plan, source, arrival.interactions, arrival.geometry);
+        path.object != nullptr)
+      polygon = arrival.whole * path.share(wavelength);
+  const EdgePassage& passage = arrival.geometry.edges[edge];
   const double utd =
       utd_share(plan.request.diffraction_model, scene.wedges.wedges[passage.wedge].length, passage, wavelength);
   return {(1 - polygon) * utd, (1 - polygon) * (1 - utd), polygon, 0};
 }
 
+/// How far the next edge's point lies off the straight way over edge number `other`, first or last of the path, m.
+double clearance(const Arrival& arrival, std::size_t other) {
+  const PathGeometry& geometry = arrival.geometry;
+  std::size_t at = 0;
+  for (std::size_t edge = 0;; ++at)
+    if (is_edge(arrival.interactions[at]) && edge++ == other) break;
+  const auto& points = geometry.points;
+  const Vec3 in = normalized(points[at + 1] - points[at]), out = normalized(points[at + 2] - points[at + 1]);
+  const double to_object = other == 0 ? geometry.edges[other].s_out : geometry.edges[other].s_in;
+  return dot(in, out) > 0 ? to_object * norm(cross(in, out)) : to_object;
+}
+
+/// The wave of one object, before and behind the same faces, that paths at a point share.
+struct SharedWave {
+  SequenceHash name;
+  double whole = 1;
+  bool carried = false;
+};
+
 }  // namespace
 
-SequenceHash object_name(const Scene& scene, const Plan& plan, const Vec3& source,
-                         std::span<const Interaction> interactions, const PathGeometry& geometry) {
-  if (plan.small_objects.objects.empty()) return 0;
-  const ObjectPath path = object_path(scene, plan, source, interactions, geometry);
-  if (!brings_object(path) || path.share(2 * pi / plan.wavenumber.front()) == 0) return 0;
-  const auto number = static_cast<std::uint32_t>(path.object - plan.small_objects.objects.data());
-  SequenceHash name = empty_sequence;
-  for (std::size_t i = 0; i < interactions.size(); ++i)
-    if (i == path.position || !is_edge(interactions[i]))
-      name = extended(name, is_edge(interactions[i]) ? edge_interaction(number) : interactions[i]);
-  return name;
-}
-
-bool carries_object(std::span<const Arrival> before, SequenceHash name) {
-  return name == 0 || std::none_of(before.begin(), before.end(), [&](const Arrival& a) { return a.object == name; });
-}
-
 void arrival_field(const Scene& scene, const Plan& plan, const Transmitter& transmitter,
-                   std::span<const Interaction> interactions, const PathGeometry& geometry, bool carries,
+                   std::span<const Interaction> interactions, const PathGeometry& geometry, bool carries, double part,
                    std::span<BandField> field) {
   path_field(scene, plan, transmitter, interactions, geometry, field);
   if (plan.small_objects.objects.empty()) return;
   const ObjectPath path = object_path(scene, plan, transmitter.position, interactions, geometry);
   if (path.object == nullptr) return;
   std::vector<double> share(plan.bands());
-  for (std::size_t band = 0; band < plan.bands(); ++band) share[band] = path.share(2 * pi / plan.wavenumber[band]);
+  for (std::size_t band = 0; band < plan.bands(); ++band)
+    share[band] = part * path.share(2 * pi / plan.wavenumber[band]);
   if (share.front() == 0) return;  // N is least at the longest wave
   std::vector<BandField> whole(plan.bands());
   if (carries && brings_object(path)) {
@@ -253,22 +276,56 @@ void arrival_field(const Scene& scene, const Plan& plan, const Transmitter& tran
       field[band][p] = (1 - share[band]) * field[band][p] + share[band] * whole[band][p];
 }
 
+void object_fields(const Scene& scene, const Plan& plan, const Transmitter& transmitter, std::span<Arrival> arrivals) {
+  const SmallObjects& objects = plan.small_objects;
+  if (objects.objects.empty()) return;
+  std::vector<SharedWave> waves;
+  const auto wave_of = [&](SequenceHash name) {
+    return std::find_if(waves.begin(), waves.end(), [&](const SharedWave& wave) { return wave.name == name; });
+  };
+  for (const Arrival& arrival : arrivals) {
+    const SequenceHash name = wave_name(objects, arrival.interactions);
+    if (name != 0 && wave_of(name) == waves.end()) waves.push_back({name});
+  }
+  if (waves.empty()) return;
+  for (const Arrival& arrival : arrivals) {
+    const std::size_t edges = arrival.geometry.edge_count;
+    for (const std::size_t other : {std::size_t(0), edges - 1}) {
+      if (edges < 2) continue;
+      const SmallObject* const next = objects.at(arrival.geometry.edges[other == 0 ? 1 : other - 1].wedge);
+      const auto wave = wave_of(wave_name(objects, arrival.interactions, other));
+      if (wave == waves.end() || next == objects.at(arrival.geometry.edges[other].wedge)) continue;
+      wave->whole = std::min(wave->whole, clear_share(next->diameter, clearance(arrival, other)));
+    }
+  }
+  const double wavelength = 2 * pi / plan.wavenumber.front();
+  for (Arrival& arrival : arrivals) {
+    const auto wave = wave_of(wave_name(objects, arrival.interactions));
+    if (wave == waves.end()) continue;
+    arrival.whole = wave->whole;
+    const ObjectPath path = object_path(scene, plan, transmitter.position, arrival.interactions, arrival.geometry);
+    const bool carries = !wave->carried && brings_object(path) && path.share(wavelength) > 0;
+    wave->carried = wave->carried || carries;
+    arrival_field(scene, plan, transmitter, arrival.interactions, arrival.geometry, carries, wave->whole,
+                  arrival.field);
+  }
+}
+
 std::array<double, edge_model_count> model_shares(const Scene& scene, const Plan& plan, const Vec3& source,
-                                                  std::span<const Interaction> interactions,
-                                                  const PathGeometry& geometry) {
+                                                  const Arrival& arrival) {
   std::array<double, edge_model_count> shares{};
-  for (std::size_t e = 0; e < geometry.edge_count; ++e) {
-    const auto of_edge = edge_shares(scene, plan, source, interactions, geometry, e);
-    for (std::size_t m = 0; m < edge_model_count; ++m) shares[m] += of_edge[m] / double(geometry.edge_count);
+  const std::size_t edges = arrival.geometry.edge_count;
+  for (std::size_t e = 0; e < edges; ++e) {
+    const auto of_edge = edge_shares(scene, plan, source, arrival, e);
+    for (std::size_t m = 0; m < edge_model_count; ++m) shares[m] += of_edge[m] / double(edges);
   }
   return shares;
 }
 
-std::string model_words(const Scene& scene, const Plan& plan, const Vec3& source,
-                        std::span<const Interaction> interactions, const PathGeometry& geometry) {
+std::string model_words(const Scene& scene, const Plan& plan, const Vec3& source, const Arrival& arrival) {
   std::string words;
-  for (std::size_t e = 0; e < geometry.edge_count; ++e) {
-    const auto shares = edge_shares(scene, plan, source, interactions, geometry, e);
+  for (std::size_t e = 0; e < arrival.geometry.edge_count; ++e) {
+    const auto shares = edge_shares(scene, plan, source, arrival, e);
     if (!words.empty()) words += ' ';
     words += edge_model_names[std::max_element(shares.begin(), shares.end()) - shares.begin()];
   }

@@ -13,14 +13,6 @@
 
 namespace grimaldi {
 
-/// Name of the object that the one edge of a path belongs to, the path's faces in it, if the object's wave has a share
-/// in the path at the lowest band; else 0. Paths of one name at one point share one wave.
-SequenceHash object_name(const Scene& scene, const Plan& plan, const Vec3& source,
-                         std::span<const Interaction> interactions, const PathGeometry& geometry);
-
-/// Whether a path of that name brings the object's wave: the first of the arrivals at a point.
-bool carries_object(std::span<const Arrival> before, SequenceHash name);
-
 /// path_field; under `auto`, of a path over one edge of a small object or over two of them in a row, (1 − w) of it and
 /// w of the object's wave (over two only in the object's shadow, where it may be that no edge is seen from both ends).
 ///
@@ -42,23 +34,30 @@ bool carries_object(std::span<const Arrival> before, SequenceHash name);
 /// mean of the outlines that source and receiver see, weighted so that it is symmetric and continuous; c that of
 /// physical optics at the mirror's direction. Transform of a triangle: triangle_transform. Polarisation: E turned as i
 /// turns to o; reflected as by the face's plane. Faces before and after the object by mirrors of source and receiver.
-/// Inputs: `carries`: true for the one path at a point that brings the object's wave, false for others of the same
-/// object_name. Valid: objects as in small_object.h, nothing else near the straight ways past them.
+/// Inputs: `carries`: true for the one path at a point that brings the object's wave, false for the others; part: times
+/// w, 0 … 1. Valid: objects as in small_object.h, nothing else near the straight ways past them.
 /// Error: 0.3 dB against Kirchhoff's integral up to N = 0.1, openings 0.45 dB down to 20 dB below their axis (held by
-/// the cases `auto`). Reciprocal but for the
-/// antennas.
+/// the cases `auto`). Reciprocal but for the antennas.
 void arrival_field(const Scene& scene, const Plan& plan, const Transmitter& transmitter,
-                   std::span<const Interaction> interactions, const PathGeometry& geometry, bool carries,
+                   std::span<const Interaction> interactions, const PathGeometry& geometry, bool carries, double part,
                    std::span<std::array<std::complex<double>, 2>> field);
 
+/// arrival_field of all arrivals at a point that pass a small object; those of others stay as they are.
+/// Paths over edges of one object between the same faces share its wave; the first that may bring it does. Its part is
+/// the least clear_share of the paths at the point that pass one more edge, of something else, before or after the
+/// object: where what that edge bounds cuts off some of the object's edges, their waves end one by one and those of
+/// the paths over both edges change sign with them. The object as a whole cannot follow; its edges do.
+/// Inputs: fields and geometry of all that arrives. Valid: the path over both edges is among them (an edge more than
+/// the object's own).
+void object_fields(const Scene& scene, const Plan& plan, const Transmitter& transmitter, std::span<Arrival> arrivals);
+
 /// Shares of the models in the power of a path with an edge, at the first band; they add up to 1.
-/// Formula: of each edge what edge_model.h says, several edges equally; of an object's path `polygon` has w.
+/// Formula: of each edge what edge_model.h says, several edges equally; of an object's path `polygon` has w times its
+/// part.
 std::array<double, edge_model_count> model_shares(const Scene& scene, const Plan& plan, const Vec3& source,
-                                                  std::span<const Interaction> interactions,
-                                                  const PathGeometry& geometry);
+                                                  const Arrival& arrival);
 
 /// For each edge of a path the model with the largest share at the first band, as edge_model_names, by blanks.
-std::string model_words(const Scene& scene, const Plan& plan, const Vec3& source,
-                        std::span<const Interaction> interactions, const PathGeometry& geometry);
+std::string model_words(const Scene& scene, const Plan& plan, const Vec3& source, const Arrival& arrival);
 
 }  // namespace grimaldi

@@ -67,18 +67,13 @@ void add_arrivals(const Scene& scene, const Tracer& tracer, const Plan& plan, co
           arrival.hash = sequences.hash(s);
           arrival.interactions = interactions;
           arrival.field.resize(plan.bands());
-          arrival.object = object_name(scene, plan, transmitter.position, interactions, arrival.geometry);
-          arrival_field(scene, plan, transmitter, interactions, arrival.geometry, true, arrival.field);
+          path_field(scene, plan, transmitter, interactions, arrival.geometry, arrival.field);
           found[block].arrivals.push_back(arrival);
         }
       },
       stop);
   for (Found& block : found) {
-    for (Arrival& arrival : block.arrivals) {
-      if (!carries_object(all, arrival.object))
-        arrival_field(scene, plan, transmitter, arrival.interactions, arrival.geometry, false, arrival.field);
-      all.push_back(std::move(arrival));
-    }
+    for (Arrival& arrival : block.arrivals) all.push_back(std::move(arrival));
     shadow_rays += block.shadow_rays;
   }
 }
@@ -136,7 +131,7 @@ PathStory story(const Scene& scene, const Plan& plan, const Transmitter& transmi
   path.arrival_azimuth = azimuth(towards);
   path.arrival_elevation = elevation(towards);
   path.interactions = interaction_tokens(scene, arrival.interactions);
-  path.models = model_words(scene, plan, transmitter.position, arrival.interactions, arrival.geometry);
+  path.models = model_words(scene, plan, transmitter.position, arrival);
   path.points.assign(g.points.begin(), g.points.begin() + static_cast<std::ptrdiff_t>(g.count));
   return path;
 }
@@ -199,6 +194,7 @@ std::uint64_t connect_receivers(const Scene& scene, const Tracer& tracer, const 
     const Receiver& receiver = plan.request.receivers[r];
     std::vector<Arrival> arrivals;
     add_arrivals(scene, tracer, plan, source, receiver.position, sequences, arrivals, shadow_rays, stop);
+    object_fields(scene, plan, source, arrivals);  // the search below asks for the power
     SequenceTable around;
     if (view) {
       around = search_for_point(scene, tracer, plan, transmitter, *view, receiver.position, arrivals, sequences,
@@ -210,6 +206,7 @@ std::uint64_t connect_receivers(const Scene& scene, const Tracer& tracer, const 
       return find_path(scene, plan, source, receiver.position, std::array{&sequences, &std::as_const(around)}, name,
                        arrival);
     });
+    object_fields(scene, plan, source, arrivals);
     add_transmitter(scene, plan, transmitter, receiver, arrivals, profiles[r]);
   }
   return shadow_rays;

@@ -53,9 +53,8 @@ struct SmallObjects {
 /// its bottom, whose rims cancel between them. It is left to its edges: the four must all be there (three interactions
 /// deep, found by an edge each), be one wave in the sums of a map, and count a wave once that the object hides both
 /// before and after the plane; and at an absorbing plane (coefficient not ±1) the bottom's rim stays. Its edges err by
-/// 4 dB behind it (case auto/box-on-the-ground).
-/// Where the shadow boundary of something else cuts the object, its wave ends with the last edge that both ends see,
-/// while the two-edge paths change sign edge by edge: a step (case auto/walk/plate-and-screen).
+/// 2.5 dB behind it (case auto/box-on-the-ground).
+/// Where the shadow boundary of something else cuts the object, its edges are taken one by one (object_fields).
 /// An opening is a closed loop of free rims of one patch, corner to corner, in its plane to 1 mm, the surface on its
 /// outer side, and no triangle but of that patch has a bounding box within 1 cm of its own. Holes in a sheet that is
 /// an object are part of that object. A gap that runs to the outer rim of a sheet, or between two sheets, is none.

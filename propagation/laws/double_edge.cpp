@@ -128,6 +128,18 @@ Complex double_edge_wave(double q1, bool dark1, double q2, bool dark2, double co
   return same ? wave : -wave;
 }
 
+Complex end_and_edge_wave(double end, bool end_dark, double other, bool other_dark, double coupling) {
+  const double root = std::sqrt((1 - coupling) * (1 + coupling));
+  const double a = end_dark ? end : -end, b = other_dark ? other : -other;
+  const double seen = root * b - coupling * a, alone = root * a + coupling * b;
+  const bool seen_dark = seen > 0;
+  const Complex wave = root * double_edge_wave(end, end_dark, std::fabs(seen), seen_dark, coupling);
+  if (seen_dark == other_dark) return wave;
+  const SineCosine turn = sine_cosine(seen * seen);
+  const Complex single = times(edge(std::fabs(alone)), {turn.cosine, turn.sine});
+  return (alone > 0) == other_dark ? wave + single : wave - single;
+}
+
 EdgeWave make_edge_wave(double q, Complex u) {
   if (q <= far_argument) return {q, u, Complex(inverse_root, -inverse_root) - q * u};
   const double h = 0.5 / q, y = h * h, scale = -2 * inverse_root * y;

@@ -68,6 +68,15 @@ DoubleEdgeMoments double_edge_moments(const EdgeWave& first, const EdgeWave& sec
 /// I₂(q) = √(j/π) ∫₀^∞ t² e^{−jt²−2jqt} dt.
 std::complex<double> second_moment(const EdgeWave& wave);
 
+/// The same wave for an end V of an edge and another edge, as the path over both edges has it: times e^{−jkδ}/U(b) of
+/// V's detour δ it takes the place of V's wave there.
+/// Formula: with signs (dark +), b the other edge's argument for the path, a = √(kδ): for V itself the other edge has
+/// b' = √(1−w²) b − w a, and V without the other edge a' = √(1−w²) a + w b. √(1−w²) U₂(a, b'), and where b and b'
+/// differ in sign ±U(a') e^{jb'²}, + if V is lit: the path over V's edge alone, with V's wave, comes and goes where b
+/// changes sign, V's own way where b' does. w = 0: U(a) U(b). Source: own; the quadratic form of the double Fresnel
+/// integral. Inputs: a, b ≥ 0; −1 < w < 1, both dark. Error: that of double_edge_wave.
+std::complex<double> end_and_edge_wave(double end, bool end_dark, double edge, bool edge_dark, double coupling);
+
 /// The largest amplitude that one edge's share in a wave over two can have.
 /// Formula: α = √((¼ + asin|w|/2π)/√(1−w²)), the root of the largest |U₂|. With f(q) = min(α, 0.3/q):
 /// |t U(q₁)U(q₂) + (U₂ − U(q₁)U(q₂))| ≤ f(q₁) f(q₂) for 0 ≤ t ≤ 1 and both signs of w.

@@ -134,6 +134,23 @@ TEST(DoubleEdge, JumpIsTheWaveOfTheOtherEdge) {
       }
 }
 
+TEST(DoubleEdge, EndBesideAnEdge) {
+  for (const double w : {-0.9, -0.3, 0.2, 0.7})
+    for (const double a : {0.01, 0.6, 2.0, 7.0})
+      for (const bool dark : {true, false}) {
+        const double root = std::sqrt(1 - w * w), sign = dark ? 1 : -1;
+        // Where the path over both edges changes sign: the end's wave of the path that ends there.
+        const Complex jump = end_and_edge_wave(a, dark, 0, true, w) - end_and_edge_wave(a, dark, 0, false, w);
+        EXPECT_LT(std::abs(jump - sign * edge(root * a) * std::polar(1.0, w * w * a * a)), 2e-11) << w << " " << a;
+        // Nothing where the way over the end itself passes the boundary (a change of the place by 1e-9).
+        const double there = w * sign * a / root;
+        const Complex step = end_and_edge_wave(a, dark, std::abs(there * (1 + 1e-9)), there > 0, w) -
+                             end_and_edge_wave(a, dark, std::abs(there * (1 - 1e-9)), there > 0, w);
+        EXPECT_LT(std::abs(step), 1e-7) << w << " " << a;
+        EXPECT_LT(std::abs(end_and_edge_wave(a, dark, 1.3, false, 0) + sign * edge(a) * edge(1.3)), 1e-14);
+      }
+}
+
 TEST(DoubleEdge, ExcessAgainstTheWave) {
   for (std::uint64_t i = 0; i < 20000; ++i) {
     const Draw d = draw(i);

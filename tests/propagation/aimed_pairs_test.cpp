@@ -34,7 +34,7 @@ Scene far_mirror() {
 /// From `from` to cells about `to` and to a receiver there.
 Result by_the_mirror(const Vec3& from, const Vec3& to) {
   PlanDescription plan = test::plan_for(WaveKind::radio, 3.5e9, from);
-  plan.coverage = CoverageRequest{1.5, 1, std::array<double, 4>{to.x - 1.5, to.y - 1.5, to.x + 1.5, to.y + 1.5},
+  plan.coverage = CoverageRequest{1.5, 1, std::array<double, 4>{to.x - 7.5, to.y - 7.5, to.x + 7.5, to.y + 7.5},
                                   Polarisation::both};
   plan.depth = 2;
   plan.max_diffractions = 1;

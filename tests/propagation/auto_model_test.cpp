@@ -63,6 +63,9 @@ TEST(EdgeModel, PolygonFormUpToAFresnelNumberOfATenth) {
   EXPECT_EQ(polygon_share(6.33, true, 100, 100, 0.5), 0);
   // Nowhere within a diameter.
   EXPECT_EQ(polygon_share(2, true, 1.99, 1e4, 10), 0);
+  // Nothing while a boundary may cut the object, all where it is a diameter off.
+  EXPECT_EQ(clear_share(2, 1), 0);
+  EXPECT_EQ(clear_share(2, 2), 1);
   // The largest diameter over a reach is that of the middle.
   const double largest = largest_small_diameter(200, 0.5);
   EXPECT_GT(polygon_share(0.999 * largest, false, 100, 100, 0.5), 0);
@@ -228,7 +231,7 @@ TEST(ObjectWave, StaysBelowItsBound) {
         if (!UnfoldedSequence(scene, source, interactions, &plan.small_objects).solve(receiver, 0.3, geometry))
           continue;
         std::array<std::complex<double>, 2> field[1];
-        arrival_field(scene, plan, plan.request.transmitters[0], interactions, geometry, true, field);
+        arrival_field(scene, plan, plan.request.transmitters[0], interactions, geometry, true, 1, field);
         EXPECT_LE(received_power(field[0], Polarisation::both), power_bound(scene, plan, interactions, geometry));
         ++asked;
       }
