@@ -9,26 +9,22 @@ namespace grimaldi {
 namespace {
 
 /// Rays from which on every pair is asked, and those for each further round.
-constexpr double rays_of_all_pairs = 2.5e5, rays_of_a_round = 1e6;
+constexpr double rays_of_all_pairs = 1.25e5, rays_of_a_round = 1e6;
 /// Beams that look for the transmitter's faces, besides one to each triangle.
 constexpr std::uint64_t beams_of_the_view = 65536;
 
-/// Shares of the sides of a triangle, of the length of a wedge: the middle first, then spread evenly (the additive
-/// sequence of the plastic number).
+/// Shares of the sides of a triangle, of the length of a wedge: spread evenly (additive sequences of the plastic number
+/// and of the golden ratio), and nowhere where a regular city has corners in a row.
 struct Place {
   double first, second;
 };
+double fraction(double x) { return x - std::floor(x); }
 Place place_of(std::uint64_t round) {
-  const auto part = [](double x) { return x - std::floor(x); };
-  double u = part(0.5 + 0.7548776662466927 * double(round)), v = part(0.5 + 0.5698402909980532 * double(round));
-  if (round == 0) u = v = 1.0 / 3;
-  if (u + v > 1) u = 1 - u, v = 1 - v;
-  return {u, v};
+  const double u = fraction(0.7548776662466927 * double(round + 1)),
+               v = fraction(0.5698402909980532 * double(round + 1));
+  return u + v > 1 ? Place{1 - u, 1 - v} : Place{u, v};
 }
-double share_of(std::uint64_t round) {
-  const double x = 0.5 + 0.6180339887498949 * double(round);
-  return x - std::floor(x);
-}
+double share_of(std::uint64_t round) { return fraction(0.6180339887498949 * double(round + 1)); }
 
 /// The numbers below `count` that belong to every `stride`-th pair, where this row of pairs begins at `row` × `count`.
 std::uint64_t first_asked(std::uint64_t row, std::uint64_t count, std::uint64_t stride) {
@@ -55,6 +51,13 @@ AimedPairs::AimedPairs(const Scene& scene, const Tracer& tracer, const Plan& pla
       view_(scene, tracer, source_, plan.request.reflection && plan.request.max_reflections > 0 ? 1 : 0,
             beams_of_the_view, rays) {}
 
+std::uint64_t AimedPairs::row_of(std::size_t block, std::uint64_t round) const {
+  const std::size_t wedges = scene_.wedges.wedges.size(), edges = view_.edges().size();
+  const std::uint64_t row =
+      block < edges ? view_.edges()[block].wedge : wedges + view_.mirrors()[block - edges].patches.front();
+  return round * (wedges + scene_.patches.patches.size()) + row;
+}
+
 void AimedPairs::walk_block(std::size_t block, Walker& walker) const {
   if (block < view_.edges().size())
     walk_edge(block, walker);
@@ -75,7 +78,7 @@ void AimedPairs::walk_edge(std::size_t number, Walker& walker) const {
     return along > 0 && along < wedge.length && !edge.shadow.is_dark(along / wedge.length) ? along : -1.0;
   };
   for (std::uint64_t round = 0; round < rounds_; ++round) {
-    const std::uint64_t row = round * blocks() + number, name = row << 32;
+    const std::uint64_t row = row_of(number, round), name = row << 32;
     const auto [u, v] = place_of(round);
     const std::uint64_t triangles = faces ? scene_.triangles.size() : 0;
     for (std::uint64_t t = first_asked(row, triangles, stride_); t < triangles; t += stride_) {
@@ -106,7 +109,7 @@ void AimedPairs::walk_mirror(std::size_t number, Walker& walker) const {
   const Patch& patch = scene_.patches.patches[patch_number];
   const std::uint64_t wedges = scene_.wedges.wedges.size();
   for (std::uint64_t round = 0; round < rounds_; ++round) {
-    const std::uint64_t row = round * blocks() + view_.edges().size() + number, name = row << 32;
+    const std::uint64_t row = row_of(view_.edges().size() + number, round), name = row << 32;
     const double share = share_of(round);
     for (std::uint64_t w = first_asked(row, wedges, stride_); w < wedges; w += stride_) {
       const Wedge& wedge = scene_.wedges.wedges[w];

@@ -33,6 +33,9 @@ class AimedPairs {
   std::size_t blocks() const { return view_.edges().size() + view_.mirrors().size(); }
   void walk_block(std::size_t block, Walker& walker) const;
 
+  /// A number of the block's edge or face that the others in view do not change.
+  std::uint64_t row_of(std::size_t block, std::uint64_t round = 0) const;
+
  private:
   void walk_edge(std::size_t number, Walker& walker) const;
   void walk_mirror(std::size_t number, Walker& walker) const;

@@ -212,7 +212,7 @@ Discovered discover_pairs(const Scene& scene, const Tracer& tracer, const Plan& 
         stop);
     const auto start = Clock::now();
     for (std::size_t place = 0; place < records.size(); ++place)
-      merge(records[place], pairs.all() ? ~0u : 1u << (first + place) % passes, all);
+      merge(records[place], pairs.all() ? ~0u : 1u << pairs.row_of(first + place) % passes, all);
     all.merge_seconds += seconds_since(start);
     if (progress) progress(double(first + records.size()) / double(pairs.blocks()));
   }

@@ -26,7 +26,7 @@ constexpr double footprint_share = 0.75;
 /// Near an edge the footprint is never finer than this (rad): more beams then meet each edge more often.
 constexpr double coarse_spacing = 0.014;
 /// Beams that leave an edge for one that met it: the exterior of an edge is a whole fan of directions. More where the
-/// transmitter itself sees the edge: those waves are the strong ones.
+/// transmitter itself sees the edge, or sees it in a face that it is aimed by: those waves are the strong ones.
 constexpr int beams_per_first_edge = 16, beams_per_edge = 6;
 
 struct Beam {
@@ -124,7 +124,7 @@ class Walker::Walk {
     seed_draw_ = beam_number;
     Beam beam;
     beam.origin = origin;
-    aim(beam, wedge_index, along);
+    aim(beam, wedge_index, along, beams_per_first_edge);
     follow_pending();
   }
 
@@ -170,7 +170,7 @@ class Walker::Walk {
     beam.leave0 = patch_index;
     append(beam, patch_index);
     ++beam.reflections;
-    aim(beam, wedge_index, share);
+    aim(beam, wedge_index, share, beams_per_first_edge);
     follow_pending();
   }
 
@@ -317,7 +317,7 @@ class Walker::Walk {
       if (last == wedge.patch0 || last == wedge.patchn || last == edge_interaction(wedge_index)) continue;
       const double along = std::clamp(dot(point - wedge.start, wedge.direction), 0.0, wedge.length);
       if (norm2(point - wedge.point(along)) > reach * reach) continue;
-      leave_edge(beam, wedge_index, along, hit.distance);
+      leave_edge(beam, wedge_index, along, hit.distance, beams_per_edge);
     }
     // Beams that have only been reflected are few, and lead to the strong ones of many edges.
     for (int i = 0; beam.diffractions == 0 && i < aims_before_edge; ++i) {
@@ -328,7 +328,7 @@ class Walker::Walk {
   }
 
   /// Beams leave a wedge that the beam's last point sees, whichever way the beam went.
-  void aim(const Beam& beam, std::uint32_t wedge_index, double share) {
+  void aim(const Beam& beam, std::uint32_t wedge_index, double share, int fan = beams_per_edge) {
     const Wedge& wedge = scene_.wedges.wedges[wedge_index];
     if (beam.depth > 0) {
       const Interaction last = beam.interactions[beam.depth - 1];
@@ -337,7 +337,7 @@ class Walker::Walk {
     const double along = share * wedge.length;
     const Vec3 seen = outside(wedge, along);
     ++records_->segments;
-    if (tracer_.visible(beam.origin, seen)) leave_edge(beam, wedge_index, along, distance(beam.origin, seen));
+    if (tracer_.visible(beam.origin, seen)) leave_edge(beam, wedge_index, along, distance(beam.origin, seen), fan);
   }
 
   /// A point of the edge as rays see it: moved out of the solid.
@@ -394,13 +394,12 @@ class Walker::Walk {
     return passed;
   }
 
-  void leave_edge(const Beam& beam, std::uint32_t wedge_index, double along, double hit_distance) {
+  void leave_edge(const Beam& beam, std::uint32_t wedge_index, double along, double hit_distance, int fan) {
     const Wedge& wedge = scene_.wedges.wedges[wedge_index];
     const auto passed = pass_edge(beam, wedge_index, along, hit_distance);
     if (!passed) return;
     keep_if_wanted(passed->beam);
-    const int beams = beam.depth == 0 ? beams_per_first_edge : beams_per_edge;
-    for (int i = 0; i < beams; ++i) {
+    for (int i = 0; i < fan; ++i) {
       Beam& child = pending_.emplace_back(passed->beam);
       const double phi = draw_azimuth(wedge, passed->phi_in, passed->sin_beta, child.radius);
       child.strength *= diffracted_strength(wedge, passed->phi_in, phi, passed->sin_beta, child.radius);

@@ -16,10 +16,10 @@ const Vec3 hidden{0, 0, 1.5}, street{41.5, -15, 1.5};
 /// away, sends from one to the other: over the upper edge of the second screen.
 Scene far_mirror() {
   MeshDescription hiding = solids::empty_mesh("metal");
-  solids::add_quad(hiding, {10, -50, -100}, {10, 50, -100}, {10, 50, 100}, {10, -50, 100});
+  solids::add_quad(hiding, {10, -50, 0}, {10, 50, 0}, {10, 50, 100}, {10, -50, 100});
   hiding.artificial_edges = {{0, 1}, {1, 2}, {2, 3}, {0, 3}};
   MeshDescription others = solids::empty_mesh("metal");
-  solids::add_quad(others, {36, 0, -50}, {46, 0, -50}, {46, 0, 10}, {36, 0, 10});
+  solids::add_quad(others, {36, 0, 0}, {46, 0, 0}, {46, 0, 10}, {36, 0, 10});
   const Vec3 middle{5, 300, 5.75}, edge{41, 0, 10};
   Vec3 normal = normalized(hidden - middle) + normalized(edge - middle);
   normal = normalized(Vec3{normal.x, normal.y, 0});
@@ -34,7 +34,7 @@ Scene far_mirror() {
 /// From `from` to cells about `to` and to a receiver there.
 Result by_the_mirror(const Vec3& from, const Vec3& to) {
   PlanDescription plan = test::plan_for(WaveKind::radio, 3.5e9, from);
-  plan.coverage = CoverageRequest{1.5, 1, std::array<double, 4>{to.x - 7.5, to.y - 7.5, to.x + 7.5, to.y + 7.5},
+  plan.coverage = CoverageRequest{1.5, 1, std::array<double, 4>{to.x - 10.5, to.y - 10.5, to.x + 10.5, to.y + 10.5},
                                   Polarisation::both};
   plan.depth = 2;
   plan.max_diffractions = 1;
@@ -47,12 +47,13 @@ Result by_the_mirror(const Vec3& from, const Vec3& to) {
   return both;
 }
 
-/// The middle cell of the map against the receiver in its middle; the level falls by 0.3 dB over a metre.
+/// The middle cell of the map against the receiver in its middle; the level changes by 1 dB over its
+/// metre, so its mean and the one of its points differ by less than 0.5 dB.
 void expect_the_same(const Result& result) {
   ASSERT_GT(result.profiles[0].total[0], 0);
   const auto& gain = result.coverage->path_gain;
   ASSERT_GT(gain[gain.size() / 2], 0);
-  EXPECT_NEAR(test::decibel(gain[gain.size() / 2] / result.profiles[0].total[0]), 0, 0.3);
+  EXPECT_NEAR(test::decibel(gain[gain.size() / 2] / result.profiles[0].total[0]), 0, 0.5);
 }
 
 // The mirror fills 3e-7 of the sphere: not one of ten runs of 2.5e5 launched beams would meet it.
