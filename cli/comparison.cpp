@@ -216,7 +216,8 @@ Belief belief(Region region, bool solid) {
         "20 degrees of the boundary), 4 to 25 dB (soft, deeper) or 1.6 dB (hard)."};
   return {"utd",
           "Deep behind solid wedges FSD errs by 4 to 25 dB (soft). Over a flat roof UTD errs by 0.1 dB in "
-          "the median, over two roofs by 3 to 5 dB at one point in ten where the source is low."};
+          "the median, over two roofs by 0.4 (soft) to 0.7 dB (hard) at one point in ten; of one height and soft, by 3 "
+          "dB."};
 }
 
 // What is not finite is null.

@@ -71,8 +71,10 @@ Prediction scaled_up(const SampleCost& sample) {
   const double beams = 1 / f, growth = std::pow(c, -0.6) * std::pow(f, -0.4 - more_growth),
                paths = std::pow(f, -more_paths) / c;
   Prediction whole;
-  whole.cpu_seconds =
-      beams * run.discover_cpu_seconds + growth * run.grow_cpu_seconds + paths * run.evaluate_cpu_seconds;
+  // What the transmitter sees is looked for once.
+  const double view = std::min(run.view_seconds, run.discover_cpu_seconds);
+  whole.cpu_seconds = view + beams * (run.discover_cpu_seconds - view) + growth * run.grow_cpu_seconds +
+                      paths * run.evaluate_cpu_seconds;
   const double cpu = run.discover_cpu_seconds + run.grow_cpu_seconds + run.evaluate_cpu_seconds;
   const double wall = run.discover_seconds + run.grow_seconds + run.evaluate_seconds;
   whole.seconds = cpu > 0 ? whole.cpu_seconds * wall / cpu : 0;

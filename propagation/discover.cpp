@@ -104,6 +104,7 @@ std::size_t Discovered::append(const Discovered& later) {
   segments += later.segments;
   shadow_rays += later.shadow_rays;
   merge_seconds += later.merge_seconds;
+  view_seconds += later.view_seconds;
   return static_cast<std::size_t>(first);
 }
 
@@ -192,7 +193,9 @@ Discovered discover_pairs(const Scene& scene, const Tracer& tracer, const Plan& 
   const PlanDescription& request = plan.request;
   Discovered all;
   all.sequences.enter(empty_sequence, {});
+  const auto begin = Clock::now();
   const AimedPairs pairs(scene, tracer, plan, transmitter, search.stride, all.shadow_rays);
+  all.view_seconds = seconds_since(begin);
   const ReflectanceTable reflectance(plan);
   const PatchRims rims(scene);
   const unsigned threads = request.threads ? request.threads : hardware_threads();

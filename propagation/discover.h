@@ -33,6 +33,7 @@ struct Discovered {
   FluxLedger flux;                   ///< of the launched beams, shares of all
   std::uint64_t rays = 0, segments = 0, shadow_rays = 0;
   double merge_seconds = 0;  ///< of one thread, uniting the blocks' records
+  double view_seconds = 0;   ///< of one thread, what the transmitter sees (the same for any number of rays)
 
   /// Adds what a later search of the same transmitter found: its new sequences get the numbers after the ones there
   /// are, its seeds come behind the others, sorted among themselves and unique. Returns the number of their first. The

@@ -82,6 +82,7 @@ struct RunFigures {
   double wall_seconds = 0, cpu_seconds = 0, trace_seconds = 0;
   double discover_seconds = 0, merge_seconds = 0, grow_seconds = 0,
          evaluate_seconds = 0;  ///< wall time of the stages; merge is part of discover
+  double view_seconds = 0;      ///< part of discover that does not depend on the rays: what the transmitter sees
   double discover_cpu_seconds = 0, grow_cpu_seconds = 0, evaluate_cpu_seconds = 0;  ///< of all threads
   unsigned threads = 1;
   std::uint64_t peak_memory_bytes = 0;

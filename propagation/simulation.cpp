@@ -148,6 +148,7 @@ Result run(const Scene& scene, const Tracer& tracer, const Plan& asked, const Co
         refine(scene, tracer, plan, t, grid, discovered, grown, stop);
       }
       figures.merge_seconds += discovered.merge_seconds;
+      figures.view_seconds += discovered.view_seconds;
       figures.rays += discovered.rays;
       figures.segments += discovered.segments;
       figures.sequences += discovered.sequences.size();
