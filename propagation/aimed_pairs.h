@@ -18,7 +18,7 @@ namespace grimaldi {
 /// Method: one point of each triangle (of each wedge) is tried against each edge in view of the transmitter: the beam
 /// leaves where the shortest way to the point passes the edge, if that is a place in view. Likewise one point of each
 /// wedge against each face in view: the beam meets the face where the image shows the point. What leaves then goes on
-/// as every beam does. With 2.5e5 rays and more every pair is asked, in round(rays/1e6) rounds with other points; with
+/// as every beam does. With 1.25e5 rays and more every pair is asked, in round(rays/1e6) rounds with other points; with
 /// fewer rays as many in proportion.
 class AimedPairs {
  public:

@@ -20,6 +20,8 @@ constexpr std::uint64_t aimed_block_size = 256;
 constexpr std::uint32_t aim_stream = 4;
 /// Blocks whose records are held at a time: what bounds the memory of a long pass, and how soon it can be stopped.
 constexpr std::uint64_t blocks_at_a_time = 2048;
+/// Seeds that are held before those of one sequence and cell are united.
+constexpr std::size_t most_seeds = 8'000'000;
 
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -128,7 +130,7 @@ Discovered discover(const Scene& scene, const Tracer& tracer, const Plan& plan, 
   const auto merge_group = [&](const std::vector<BlockRecords>& records, std::uint32_t pass_bit) {
     const auto start = Clock::now();
     for (const BlockRecords& block : records) merge(block, pass_bit, all);
-    if (all.seeds.size() > 8'000'000) unite_seeds(all.seeds, all.sequences.size(), threads);
+    if (all.seeds.size() > most_seeds) unite_seeds(all.seeds, all.sequences.size(), threads);
     all.merge_seconds += seconds_since(start);
   };
   std::future<void> merging;
@@ -216,6 +218,7 @@ Discovered discover_pairs(const Scene& scene, const Tracer& tracer, const Plan& 
     const auto start = Clock::now();
     for (std::size_t place = 0; place < records.size(); ++place)
       merge(records[place], pairs.all() ? ~0u : 1u << pairs.row_of(first + place) % passes, all);
+    if (all.seeds.size() > most_seeds) unite_seeds(all.seeds, all.sequences.size(), threads);
     all.merge_seconds += seconds_since(start);
     if (progress) progress(double(first + records.size()) / double(pairs.blocks()));
   }
