@@ -21,8 +21,8 @@ Effort effort_of_rays(const PlanDescription& request, double rays) {
     effort.dense_points = dense > effort.coarse_points + 1 ? dense : 0;
   }
   effort.strong_share = std::min(0.1, 0.02 / e);
-  effort.negligible_share = std::clamp(7e-4 / millions, 5e-5, 0.01);
-  effort.detours_tried = within(std::round(80 * millions), 6, 160);
+  effort.negligible_share = std::clamp(1e-3 / millions, 5e-5, 0.01);
+  effort.detours_tried = within(std::round(40 * millions), 6, 160);
   effort.detours_kept = within(std::round(20 * millions), 1, 40);
   return effort;
 }

@@ -22,7 +22,7 @@ struct Effort {
   /// is left out of the cell (and does not grow through it): 0.07 %/m, 5e-5 to 1 %. In Etoile a street point has some
   /// 2,000 pairs of edges, of which those below −30 dB carry 0.1 dB together.
   double negligible_share;
-  /// Ways around a blocked leg whose path is asked for: 80 m, 6 to 160 (a sixth of them for a third edge and more); of
+  /// Ways around a blocked leg whose path is asked for: 40 m, 6 to 160 (a sixth of them for a third edge and more); of
   /// those that are free, and of those that something else blocks, as many are kept: 20 m, 1 to 40.
   int detours_tried, detours_kept;
 };
