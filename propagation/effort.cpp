@@ -22,7 +22,7 @@ Effort effort_of_rays(const PlanDescription& request, double rays) {
   }
   effort.strong_share = std::min(0.1, 0.02 / e);
   effort.negligible_share = std::clamp(1e-3 / millions, 5e-5, 0.01);
-  effort.detours_tried = within(std::round(40 * millions), 6, 160);
+  effort.detours_tried = within(std::round(40 * e), 6, 160);
   effort.detours_kept = within(std::round(20 * millions), 1, 40);
   return effort;
 }

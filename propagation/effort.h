@@ -19,10 +19,10 @@ struct Effort {
   /// Share of a cell's power from which a path is asked at the dense points: 2 %/√m, at most 10 %.
   double strong_share;
   /// Share of a cell's power from stronger sequences below which one sequence of two and more interactions with an edge
-  /// is left out of the cell (and does not grow through it): 0.07 %/m, 5e-5 to 1 %. In Etoile a street point has some
+  /// is left out of the cell (and does not grow through it): 0.1 %/m, 5e-5 to 1 %. In Etoile a street point has some
   /// 2,000 pairs of edges, of which those below −30 dB carry 0.1 dB together.
   double negligible_share;
-  /// Ways around a blocked leg whose path is asked for: 40 m, 6 to 160 (a sixth of them for a third edge and more); of
+  /// Ways around a blocked leg whose path is asked for: 40 √m, 6 to 160 (a sixth of them for a third edge and more); of
   /// those that are free, and of those that something else blocks, as many are kept: 20 m, 1 to 40.
   int detours_tried, detours_kept;
 };
