@@ -2,22 +2,33 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <limits>
 
 #include "core/constants.h"
 
 namespace grimaldi {
 namespace {
 
-constexpr double full_coherence = 3;  ///< v up to which an edge belongs wholly to a composite
-constexpr double no_coherence = 6;    ///< v from which it does not belong to it
+constexpr double full_coherence = 3;                 ///< v up to which an edge belongs wholly to a composite
+constexpr double no_coherence = 2 * full_coherence;  ///< v from which it does not belong to it
+constexpr double full_end = 1.5;  ///< v_V up to which an edge passed beyond its end belongs wholly to a composite
 
-/// cos² fade between the two.
-double coherence(double v) {
-  if (v <= full_coherence) return 1;
-  if (v >= no_coherence) return 0;
-  const double c = std::cos(0.5 * pi * (v - full_coherence) / (no_coherence - full_coherence));
+/// 1 up to `full`, cos² down to 0 at twice that.
+double fade(double x, double full) {
+  if (x <= full) return 1;
+  if (x >= 2 * full) return 0;
+  const double c = std::cos(0.5 * pi * (x / full - 1));
   return c * c;
+}
+
+constexpr double full_bridge = 1. / 300;  ///< share of the power from which a wave ties what it belongs to
+constexpr double no_bridge = 1. / 3000;   ///< and up to which it does not
+
+/// The fade between the two, over the logarithm.
+double bridging(double power, double whole) {
+  if (power >= full_bridge * whole) return 1;
+  if (power <= no_bridge * whole) return 0;
+  return fade(1 + std::log(full_bridge * whole / power) / std::log(full_bridge / no_bridge), 1);
 }
 
 double correlation(const std::array<std::complex<double>, 2>& a, const std::array<std::complex<double>, 2>& b,
@@ -39,66 +50,121 @@ double received_power(const std::array<std::complex<double>, 2>& field, Polarisa
   return correlation(field, field, polarisation);
 }
 
-std::uint32_t CompositeSum::node_of(SequenceHash composite) {
-  const auto [place, added] = node_by_hash_.try_emplace(composite, static_cast<std::uint32_t>(arrivals_ + absent_));
-  absent_ += added;
+std::uint32_t CompositeSum::node_of(SequenceHash name) {
+  const auto [place, added] = node_by_hash_.try_emplace(name, static_cast<std::uint32_t>(node_count_));
+  if (added) {
+    if (node_count_ == nodes_.size()) nodes_.emplace_back();
+    Node& node = nodes_[node_count_++];
+    node.interactions.clear();
+    node.edges.clear();
+    node.apart = std::numeric_limits<double>::infinity();
+    node.power.assign(plan_->bands(), 0);
+  }
   return place->second;
 }
 
-void CompositeSum::tie_to_composites(std::span<const Arrival> arrivals) {
-  const double longest = 2 * pi / plan_->wavenumber.front();
-  for (std::uint32_t a = 0; a < arrivals.size(); ++a) {
-    const Arrival& arrival = arrivals[a];
-    std::size_t position = 0;
-    for (std::size_t e = 0; e < arrival.geometry.edge_count; ++e, ++position) {
-      while (!is_edge(arrival.interactions[position])) ++position;
-      const Wedge& wedge = scene_->wedges.wedges[arrival.geometry.edges[e].wedge];
-      const std::pair<Boundary, std::uint32_t> bounded[3] = {
-          {Boundary::incident, no_index}, {Boundary::face0, wedge.patch0}, {Boundary::facen, wedge.patchn}};
-      const std::size_t kinds = !plan_->request.reflection ? 1 : wedge.free_rim ? 2 : 3;
-      for (std::size_t kind = 0; kind < kinds; ++kind) {
-        const double v = boundary_parameter(*scene_, arrival.geometry, e, bounded[kind].first, longest);
-        if (v >= no_coherence) continue;
-        const std::uint32_t node = node_of(hash_without(arrival.interactions, position, bounded[kind].second));
-        ties_.push_back({node, a, static_cast<std::uint32_t>(weights_.size())});
-        for (const double k : plan_->wavenumber)
-          weights_.push_back(coherence(v * std::sqrt(k / plan_->wavenumber.front())));
-      }
-    }
+void CompositeSum::enter(std::span<const Arrival> arrivals, Polarisation polarisation) {
+  node_by_hash_.clear();
+  node_count_ = 0;
+  arrivals_ = arrivals.size();
+  power_.assign(plan_->bands(), 0);
+  for (const Arrival& arrival : arrivals) {
+    Node& node = nodes_[node_of(arrival.hash)];
+    node.interactions.assign(arrival.interactions.begin(), arrival.interactions.end());
+    const auto first = arrival.geometry.edges.begin();
+    node.edges.assign(first, first + static_cast<std::ptrdiff_t>(arrival.geometry.edge_count));
+    node.apart = 0;
+    for (std::size_t band = 0; band < plan_->bands(); ++band)
+      power_[band] += node.power[band] = received_power(arrival.field[band], polarisation);
   }
 }
 
-void CompositeSum::tie_corners(std::span<const Arrival> arrivals) {
-  struct End {
-    SequenceHash rest;
-    std::uint32_t vertex, arrival;
-  };
-  std::vector<End> ends;
+void CompositeSum::note(std::uint32_t bounded, std::uint32_t node, std::size_t edge, std::size_t position,
+                        Interaction face, double v) {
+  const Node& from = nodes_[node];
+  Node& to = nodes_[bounded];
+  if (!(from.apart + v < to.apart)) return;
+  to.apart = from.apart + v;
+  to.interactions = from.interactions;
+  to.edges = from.edges;
+  const auto at = to.interactions.begin() + static_cast<std::ptrdiff_t>(position);
+  if (face == no_interaction)
+    to.interactions.erase(at);
+  else
+    *at = face;
+  const double leg = from.edges[edge].s_in + from.edges[edge].s_out;
+  to.edges.erase(to.edges.begin() + static_cast<std::ptrdiff_t>(edge));
+  if (edge > 0) to.edges[edge - 1].s_out = leg;
+  if (edge < to.edges.size()) to.edges[edge].s_in = leg;
+}
+
+void CompositeSum::tie_upward(std::uint32_t node) {
   const double longest = 2 * pi / plan_->wavenumber.front();
-  for (std::uint32_t a = 0; a < arrivals.size(); ++a) {
-    std::size_t position = 0;
-    for (std::size_t e = 0; e < arrivals[a].geometry.edge_count; ++e, ++position) {
-      while (!is_edge(arrivals[a].interactions[position])) ++position;
-      const EdgePassage& passage = arrivals[a].geometry.edges[e];
-      const Wedge& wedge = scene_->wedges.wedges[passage.wedge];
-      const double zone = std::sqrt(longest * passage.s_in * passage.s_out / (passage.s_in + passage.s_out));
-      const SequenceHash rest = hash_without(arrivals[a].interactions, position, edge_interaction(0x7fffffffu));
-      if (wedge.vertex_start != no_index && std::abs(passage.along) < zone)
-        ends.push_back({rest, wedge.vertex_start, a});
-      if (wedge.vertex_end != no_index && std::abs(wedge.length - passage.along) < zone)
-        ends.push_back({rest, wedge.vertex_end, a});
+  const auto edges = [&]() -> const std::vector<EdgePassage>& { return nodes_[node].edges; };
+  double beyond_end = 0;  // v_V
+  for (const EdgePassage& passage : edges())
+    if (!passage.inside) {
+      const double detour = passage.along < 0 ? passage.detour_start : passage.detour_end;
+      beyond_end = std::max(beyond_end, 2 * std::sqrt(detour / longest));
+    }
+  const std::size_t first_tie = ties_.size();
+  std::size_t position = 0, nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t e = 0; e < edges().size(); ++e, ++position) {
+    while (!is_edge(nodes_[node].interactions[position])) ++position;
+    const Wedge& wedge = scene_->wedges.wedges[edges()[e].wedge];
+    const std::pair<Boundary, std::uint32_t> bounded[3] = {
+        {Boundary::incident, no_interaction}, {Boundary::face0, wedge.patch0}, {Boundary::facen, wedge.patchn}};
+    const std::size_t kinds = !plan_->request.reflection ? 1 : wedge.free_rim ? 2 : 3;
+    for (std::size_t kind = 0; kind < kinds; ++kind) {
+      const auto [boundary, face] = bounded[kind];
+      const double v = boundary_parameter(*scene_, edges()[e], boundary, longest);
+      if (v >= no_coherence) continue;
+      const std::uint32_t other = node_of(hash_without(nodes_[node].interactions, position, face));
+      if (v < least) least = v, nearest = ties_.size();
+      ties_.push_back({other, node, static_cast<std::uint32_t>(weights_.size())});
+      for (std::size_t band = 0; band < plan_->bands(); ++band) {
+        const double scale = std::sqrt(plan_->wavenumber[band] / plan_->wavenumber.front());
+        weights_.push_back(fade(v * scale, full_coherence) * fade(beyond_end * scale, full_end));
+        nodes_[other].power[band] = std::max(nodes_[other].power[band], weights_.back() * nodes_[node].power[band]);
+      }
+      if (other >= arrivals_) note(other, node, e, position, face, v);
     }
   }
-  // A chain of ties through each corner makes its arrivals one wave.
-  std::sort(ends.begin(), ends.end(), [](const End& x, const End& y) {
-    return std::tie(x.rest, x.vertex, x.arrival) < std::tie(y.rest, y.vertex, y.arrival);
-  });
-  for (std::size_t i = 1; i < ends.size(); ++i)
-    if (ends[i].rest == ends[i - 1].rest && ends[i].vertex == ends[i - 1].vertex &&
-        ends[i].arrival != ends[i - 1].arrival) {
-      ties_.push_back({ends[i - 1].arrival, ends[i].arrival, static_cast<std::uint32_t>(weights_.size())});
-      weights_.insert(weights_.end(), plan_->bands(), 1.0);
-    }
+  for (std::size_t tie = first_tie; tie < ties_.size(); ++tie)
+    for (std::size_t band = 0; tie != nearest && band < plan_->bands(); ++band)
+      weights_[ties_[tie].weights + band] *= bridging(nodes_[node].power[band], power_[band]);
+}
+
+void CompositeSum::tie_to_composites() {
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < arrivals_; ++i) most = std::max(most, nodes_[i].edges.size());
+  // What belongs to a wave has one edge more: it has spoken before.
+  for (std::size_t edges = most; edges > 0; --edges)
+    for (std::uint32_t i = 0; i < node_count_; ++i)
+      if (nodes_[i].edges.size() == edges) tie_upward(i);
+}
+
+void CompositeSum::tie_corners(std::uint32_t node) {
+  const double longest = 2 * pi / plan_->wavenumber.front();
+  const std::span<const Interaction> interactions = nodes_[node].interactions;
+  std::size_t position = 0;
+  for (std::size_t e = 0; e < nodes_[node].edges.size(); ++e, ++position) {
+    while (!is_edge(interactions[position])) ++position;
+    const EdgePassage passage = nodes_[node].edges[e];
+    const Wedge& wedge = scene_->wedges.wedges[passage.wedge];
+    const double zone = std::sqrt(longest * passage.s_in * passage.s_out / (passage.s_in + passage.s_out));
+    const auto tie_to = [&](std::uint32_t vertex, double away) {
+      if (vertex == no_index || away >= 2 * zone) return;
+      constexpr Interaction some_corner = 0x7fffffffu;
+      const SequenceHash rest = hash_without(interactions, position, edge_interaction(some_corner));
+      ties_.push_back({node_of(extended(rest, vertex)), node, static_cast<std::uint32_t>(weights_.size())});
+      for (const double k : plan_->wavenumber)
+        weights_.push_back(fade(away / zone * std::sqrt(k / plan_->wavenumber.front()), 1));
+    };
+    tie_to(wedge.vertex_start, std::abs(passage.along));
+    tie_to(wedge.vertex_end, std::abs(wedge.length - passage.along));
+  }
 }
 
 std::uint32_t CompositeSum::root_of(std::uint32_t node) {
@@ -111,7 +177,7 @@ void CompositeSum::span_tree() {
     if (weights_[x.weights] != weights_[y.weights]) return weights_[x.weights] > weights_[y.weights];
     return x.a != y.a ? x.a < y.a : x.b < y.b;
   });
-  const std::size_t nodes = arrivals_ + absent_;
+  const std::size_t nodes = node_count_;
   root_.resize(nodes);
   for (std::uint32_t i = 0; i < nodes; ++i) root_[i] = i;
   // Kruskal; the kept ties as linked lists of neighbours.
@@ -146,7 +212,7 @@ void CompositeSum::span_tree() {
 double CompositeSum::at_the_point(std::span<const Arrival> arrivals, std::size_t band, Polarisation polarisation) {
   // From the leaves: a node's sum is its own wave and its branches' sums, each times the weight of its tie.
   double cross_terms = 0;
-  sums_.assign(arrivals_ + absent_, {});
+  sums_.assign(node_count_, {});
   for (std::size_t a = 0; a < arrivals_; ++a) sums_[a] = arrivals[a].field[band];
   for (std::size_t i = branches_.size(); i-- > 0;) {
     const Branch& branch = branches_[i];
@@ -169,7 +235,7 @@ double CompositeSum::over_a_square(std::span<const Arrival> arrivals, std::size_
   const auto sinc = [](double x) { return std::abs(x) < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x; };
   const double scale = 0.5 * plan_->wavenumber[band] * extent;
   double cross_terms = 0;
-  place_.resize(arrivals_ + absent_);
+  place_.resize(node_count_);
   for (std::size_t begin = 0, end = 0; begin < branches_.size(); begin = end) {
     for (end = begin + 1; end < branches_.size() && branches_[end].parent != no_index;) ++end;
     const std::size_t size = end - begin;
@@ -198,23 +264,18 @@ double CompositeSum::over_a_square(std::span<const Arrival> arrivals, std::size_
 void CompositeSum::interference(std::span<const Arrival> arrivals, Polarisation polarisation, std::span<double> out,
                                 double extent) {
   std::fill(out.begin(), out.end(), 0.0);
+  if (arrivals.size() < 2) return;
   ties_.clear();
   weights_.clear();
-  absent_ = 0;
-  arrivals_ = arrivals.size();
-  if (arrivals.size() < 2) return;
-  node_by_hash_.clear();
-  for (std::uint32_t a = 0; a < arrivals.size(); ++a) node_by_hash_[arrivals[a].hash] = a;
-  tie_to_composites(arrivals);
-  tie_corners(arrivals);
+  enter(arrivals, polarisation);
+  tie_to_composites();
+  for (std::uint32_t i = 0; i < arrivals_; ++i) tie_corners(i);
   span_tree();
   for (std::size_t band = 0; band < plan_->bands(); ++band) {
     out[band] =
         extent > 0 ? over_a_square(arrivals, band, polarisation, extent) : at_the_point(arrivals, band, polarisation);
     // A null of the field may come out a rounding error below zero.
-    double powers = 0;
-    for (const Arrival& arrival : arrivals) powers += received_power(arrival.field[band], polarisation);
-    out[band] = std::max(out[band], -powers * (1 - 1e-12));
+    out[band] = std::max(out[band], -power_[band] * (1 - 1e-12));
   }
 }
 

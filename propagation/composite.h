@@ -37,13 +37,18 @@ double received_power(const std::array<std::complex<double>, 2>& field, Polarisa
 /// An edge bounds up to three waves: the one that it cuts off (the sequence without the edge) and the ones that its two
 /// faces reflect (the sequence with the face in place of the edge). The bounded wave and the waves of all edges that
 /// bound it form one composite, whether the bounded wave arrives or not. An edge belongs to a composite with the weight
-/// t = 1 up to v = 3 and a cos² fade to 0 at v = 6 (v of that boundary). Edges that end at one corner, before and after
-/// the same other interactions, both diffraction points within r_F of it, are tied with weight 1. γ_ab is the product
-/// of the weights along the way from a to b over these ties (of several ways the strongest: the maximum spanning tree
-/// of the first band): 1 for a wave and an edge on its boundary, t_a t_b for two edges of one wave, t t' for a direct
-/// and a reflected wave that one edge bounds both (near grazing they are one coherent wave). Products along a tree are
-/// a correlation, so power + interference = the mean power of correlated waves ≥ 0; it is continuous where a bounded
-/// wave appears or ends, since there its edge's wave jumps by as much. Source: physics of an edge, lines 8 to 10.
+/// t = 1 up to v = 3 and a cos² fade to 0 at v = 6 (v of that boundary), times, where it is passed beyond its end, 1 up
+/// to v_V = 1.5 and a fade to 0 at v_V = 3, with which its wave ends. A bounded wave that does not arrive is itself
+/// tied to the waves that its edges bound, as passed by the path nearest to it. Edges that end at one corner, before
+/// and after the same other interactions, are tied there, each with 1 up to r_F from it and a fade to 0 at 2 r_F. A
+/// wave ties the waves that it belongs to with one another only as far as it has power, itself or in what belongs to
+/// it: 1 from 1/300 of the whole, a fade to 0 at 1/3000: what is so weak may have been left out. γ_ab is the product of
+/// the weights along the way from a to b over these ties (of several ways the strongest: the maximum spanning tree of
+/// the first band): 1 for a wave and an edge on its boundary, t_a t_b for two edges of one wave, t t' for a direct and
+/// a reflected wave that one edge bounds both (near grazing they are one coherent wave). Products along a tree are a
+/// correlation, so power + interference = the mean power of correlated waves ≥ 0; it is continuous where a bounded wave
+/// appears or ends, since there its edge's wave jumps by as much. Source: physics of an edge, lines 8 to 10; the fades
+/// and what absent waves tie, own.
 class CompositeSum {
  public:
   CompositeSum(const Scene& scene, const Plan& plan) : scene_(&scene), plan_(&plan) {}
@@ -56,13 +61,24 @@ class CompositeSum {
                     double extent = 0);
 
  private:
-  /// Two nodes that add as fields. Nodes are the arrivals, then the bounded waves that do not arrive.
+  /// A wave by its name. The arrivals come first, then the bounded waves that do not arrive and the corners.
+  struct Node {
+    std::vector<Interaction> interactions;
+    std::vector<EdgePassage> edges;  ///< as passed by itself or by the path nearest to it; none at a corner
+    double apart;                    ///< Σ v of the boundaries between that path and it
+    std::vector<double> power;       ///< per band, of itself and of what belongs to it: the greatest
+  };
+  /// Two nodes that add as fields.
   struct Tie {
     std::uint32_t a, b;
     std::uint32_t weights;  ///< first of its weights, one per band
   };
-  void tie_to_composites(std::span<const Arrival> arrivals);
-  void tie_corners(std::span<const Arrival> arrivals);
+  void enter(std::span<const Arrival> arrivals, Polarisation polarisation);
+  void tie_to_composites();
+  void tie_upward(std::uint32_t node);
+  void tie_corners(std::uint32_t node);
+  void note(std::uint32_t bounded, std::uint32_t node, std::size_t edge, std::size_t position, Interaction face,
+            double v);
   void span_tree();
   double at_the_point(std::span<const Arrival> arrivals, std::size_t band, Polarisation polarisation);
   double over_a_square(std::span<const Arrival> arrivals, std::size_t band, Polarisation polarisation, double extent);
@@ -74,8 +90,9 @@ class CompositeSum {
   std::vector<Tie> ties_;
   std::vector<double> weights_;
   std::unordered_map<SequenceHash, std::uint32_t> node_by_hash_;
-  std::size_t absent_ = 0;  ///< composites whose bounded wave does not arrive
-  std::size_t arrivals_ = 0;
+  std::vector<Node> nodes_;  ///< the first node_count_ of them
+  std::size_t node_count_ = 0, arrivals_ = 0;
+  std::vector<double> power_;        ///< per band, of all arrivals
   std::vector<std::uint32_t> root_;  ///< union-find
   struct Branch {
     std::uint32_t node, parent, weights;

@@ -1,5 +1,9 @@
 #include "propagation/face_reflection.h"
 
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
 namespace grimaldi {
 
 ReflectionCoefficients face_reflection(const Plan& plan, std::uint32_t material, std::size_t band,
@@ -8,6 +12,25 @@ ReflectionCoefficients face_reflection(const Plan& plan, std::uint32_t material,
   if (plan.request.kind == WaveKind::radio) return face.slab[band](cos_incidence);
   const double factor = wall_reflection(face.absorption[band]);
   return {factor, factor};
+}
+
+ReflectionCoefficients reflection_along(const Plan& plan, std::uint32_t material, std::size_t band,
+                                        double cos_incidence, double way) {
+  const double width = std::min(1.0, 1 / std::sqrt(plan.wavenumber[band] * way));
+  if (plan.request.kind != WaveKind::radio || cos_incidence >= width)
+    return face_reflection(plan, material, band, std::min(cos_incidence, 1.0));
+  const ReflectionCoefficients r = face_reflection(plan, material, band, width);
+  const auto least = [&](std::complex<double> coefficient) {
+    const std::complex<double> sum = 1.0 + coefficient;
+    return width / (1 + std::abs((1.0 - coefficient) / (sum == 0.0 ? 1e-300 : sum)));
+  };
+  return {face_reflection(plan, material, band, std::max(cos_incidence, least(r.te))).te,
+          face_reflection(plan, material, band, std::max(cos_incidence, least(r.tm))).tm};
+}
+
+double face_share(double in, double out) {
+  const double whole = in * in + out * out;
+  return whole > 0 ? out * out / whole : 0.5;
 }
 
 ReflectanceTable::ReflectanceTable(const Plan& plan) : values_(plan.materials.size() * (steps + 1)) {

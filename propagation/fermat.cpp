@@ -309,6 +309,7 @@ bool UnfoldedSequence::passage(std::size_t i, std::span<const Vec3> way, double 
   };
   out.detour_start = detour(ends[0]);
   out.detour_end = detour(ends[1]);
+  if (!out.inside && (along < 0 ? wedge.stands_at_start : wedge.stands_at_end)) return false;
   if (!out.inside &&
       2 * std::sqrt((along < 0 ? out.detour_start : out.detour_end) / wavelength) >= end_parameter_limit) {
     const Vec3& end = ends[along < 0 ? 0 : 1];

@@ -49,12 +49,13 @@ class UnfoldedSequence {
   bool possible() const { return possible_; }
 
   /// Points, lengths and angles of the path to `receiver`. False if there is none: a mirror's point lies behind it or
-  /// outside its bounding box, an azimuth inside the solid, a diffraction point so far beyond the edge's end that v_V ≥
-  /// 3 there at `wavelength` (m; but of the one edge of an opening that shines through), two edges passed within 1 mm
-  /// of each other (where they meet), or two other vertices of the path nearer than 1 µm. Visibility is not asked here.
-  /// Method: one edge in closed form (the two half-planes through the edge unfolded); more by Newton on the length,
-  /// which is convex, until the step is below 1e-12 of the length. Newton starts from the last solution of this object,
-  /// so that neighbouring receivers cost one or two steps; the solution itself is the same to 1e-9 m.
+  /// outside its bounding box, an azimuth inside the solid, a diffraction point beyond an end that stands on a face or
+  /// so far beyond the edge's end that v_V ≥ 3 there at `wavelength` (m; but of the one edge of an opening that shines
+  /// through), two edges passed within 1 mm of each other (where they meet), or two other vertices of the path nearer
+  /// than 1 µm. Visibility is not asked here. Method: one edge in closed form (the two half-planes through the edge
+  /// unfolded); more by Newton on the length, which is convex, until the step is below 1e-12 of the length. Newton
+  /// starts from the last solution of this object, so that neighbouring receivers cost one or two steps; the solution
+  /// itself is the same to 1e-9 m.
   bool solve(const Vec3& receiver, double wavelength, PathGeometry& geometry) {
     return solve(receiver, wavelength, geometry, false);
   }

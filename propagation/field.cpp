@@ -26,15 +26,18 @@ constexpr double negligible_end = 1e-4;
 /// T of line 6: which part of each term there is, with the ends of the edge.
 class EndWeights {
  public:
-  EndWeights(const Wedge& wedge, const EdgePassage& passage, double wavelength, double wavenumber)
+  /// `mirrors`: an end that stands on a face has no wave.
+  EndWeights(const Wedge& wedge, const EdgePassage& passage, double wavelength, double wavenumber, bool mirrors)
       : inside_(passage.inside ? 1.0 : 0.0) {
-    add(passage.detour_start, wavelength, wavenumber, passage.along >= 0);
-    add(passage.detour_end, wavelength, wavenumber, passage.along <= wedge.length);
+    if (!mirrors || !wedge.stands_at_start) add(passage.detour_start, 1, wavelength, wavenumber, passage.along >= 0);
+    if (!mirrors || !wedge.stands_at_end)
+      add(passage.detour_end, -1, wavelength, wavenumber, passage.along <= wedge.length);
   }
 
   Complex of(const EdgeTerm& term) const {
     Complex weight = inside_;
-    for (const End& end : ends_) weight += edge_end_share(term.wave.argument, end.argument) * end.wave;
+    for (const End& end : std::span(ends_.data(), count_))
+      weight += edge_end_share(term.wave.argument, end.argument) * end.wave;
     return weight;
   }
 
@@ -47,7 +50,7 @@ class EndWeights {
     const double root = std::sqrt((1 - coupling) * (1 + coupling));
     for (std::size_t i = 0; i < count_; ++i) {
       const End& end = ends_[i];
-      const double w = i == 0 ? coupling : -coupling, b = other.sign * other.wave.argument;
+      const double w = end.side * coupling, b = other.sign * other.wave.argument;
       const double share = edge_end_share(alone, root * (end.dark ? end.argument : -end.argument) + w * b);
       if (share * std::norm(end.wave) * std::abs(w) < negligible_end) {
         coupled += share * end.wave;
@@ -61,12 +64,14 @@ class EndWeights {
 
  private:
   struct End {
+    double side;      ///< + where the edge starts, - where it ends
     double argument;  ///< of its wave, √(kδ)
     bool dark;
     Complex wave;
   };
-  void add(double detour, double wavelength, double wavenumber, bool inside) {
-    ends_[count_++] = {std::sqrt(wavenumber * detour), !inside, edge_end_wave(detour, wavelength, wavenumber, inside)};
+  void add(double detour, double side, double wavelength, double wavenumber, bool inside) {
+    ends_[count_++] = {side, std::sqrt(wavenumber * detour), !inside,
+                       edge_end_wave(detour, wavelength, wavenumber, inside)};
   }
   double inside_;
   std::array<End, 2> ends_{};
@@ -84,12 +89,11 @@ struct Dyadic {
   Complex bb, bp, pb, pp;
 };
 
-/// For a way of length `way` to the edge, in direction k. A way along the face is a wave of some width: it meets the
-/// face at no less than 1/√(k way).
+/// For a way of length `way` to the edge, in direction k.
 Dyadic image_dyadic(const Plan& plan, std::uint32_t material, std::size_t band, const Vec3& edge, const Vec3& k,
                     double way, const Vec3& normal) {
-  const double cosine = dot(k, normal), least_cosine = std::min(1.0, 1 / std::sqrt(plan.wavenumber[band] * way));
-  const auto r = face_reflection(plan, material, band, std::clamp(std::abs(cosine), least_cosine, 1.0));
+  const double cosine = dot(k, normal);
+  const auto r = reflection_along(plan, material, band, std::abs(cosine), way);
   const Vec3 image = k - 2 * cosine * normal;
   Vec3 s = cross(k, normal);
   const double sine = norm(s);
@@ -105,8 +109,10 @@ Dyadic image_dyadic(const Plan& plan, std::uint32_t material, std::size_t band, 
 /// The same for the way back: transposed (φ̂ turns round with the ray).
 Dyadic reversed(const Dyadic& d) { return {d.bb, -d.pb, -d.bp, d.pp}; }
 
-Dyadic mean(const Dyadic& a, const Dyadic& b) {
-  return {0.5 * (a.bb + b.bb), 0.5 * (a.bp + b.bp), 0.5 * (a.pb + b.pb), 0.5 * (a.pp + b.pp)};
+/// share a + (1 − share) b.
+Dyadic mixed(double share, const Dyadic& a, const Dyadic& b) {
+  const auto mix = [&](const Complex& x, const Complex& y) { return share * x + (1 - share) * y; };
+  return {mix(a.bb, b.bb), mix(a.bp, b.bp), mix(a.pb, b.pb), mix(a.pp, b.pp)};
 }
 
 /// True if the faces of an edge have waves of their own.
@@ -115,24 +121,44 @@ bool faces_count(const Plan& plan) {
   return plan.request.reflection || model == DiffractionModel::utd || model == DiffractionModel::automatic;
 }
 
-/// The faces of one edge as its wave meets them: dyadics (sound: bb alone). The mean of a face's dyadic for the way
-/// there and for the way back: reciprocal, and unchanged at the reflection boundary, where both are the same. Along a
-/// face that the edge before (`came`) or after (`leaves`) shares, the way between the two alone.
+/// A way along a face that two edges in a row bound.
+struct FaceWay {
+  std::uint32_t patch = no_index;
+  double length = 0;  ///< m
+};
+
+/// From edge `e` to the next. Where the wave passes one of them straight on, the way goes on too: a wave of one edge
+/// less has it whole.
+FaceWay way_along_face(const Scene& scene, const PathGeometry& geometry, std::size_t e, double wavelength) {
+  const EdgePassage &here = geometry.edges[e], &next = geometry.edges[e + 1];
+  FaceWay way{grazed_face(scene, here, next), here.s_out};
+  const auto straight = [&](const EdgePassage& passage) {
+    const double v = boundary_parameter(scene, passage, Boundary::incident, wavelength);
+    return std::exp(-0.5 * pi * v * v);
+  };
+  if (way.patch != no_index) way.length += straight(here) * here.s_in + straight(next) * next.s_out;
+  return way;
+}
+
+/// The faces of one edge as its wave meets them: dyadics (sound: bb alone). Of a face's dyadics for the way there and
+/// for the way back the mean by `face_share`. Along a face that the edge before (`came`) or after (`leaves`) shares,
+/// the way between the two alone.
 class EdgeFaces {
  public:
   EdgeFaces(const Plan& plan, const Wedge& wedge, const EdgePassage& passage, std::size_t band, const Vec3& k_in,
-            const Vec3& k_out, std::uint32_t came, std::uint32_t leaves) {
+            const Vec3& k_out, const FaceWay& came, const FaceWay& leaves) {
     const auto dyadic = [&](std::uint32_t patch, std::uint32_t material, const Vec3& normal) -> Dyadic {
       if (plan.request.kind != WaveKind::radio) return {face_reflection(plan, material, band, 1).te, 0, 0, 0};
-      const auto there = [&] {
-        return image_dyadic(plan, material, band, wedge.direction, k_in, passage.s_in, normal);
+      const auto there = [&](double way) {
+        return image_dyadic(plan, material, band, wedge.direction, k_in, way, normal);
       };
-      const auto back = [&] {
-        return reversed(image_dyadic(plan, material, band, wedge.direction, -k_out, passage.s_out, normal));
+      const auto back = [&](double way) {
+        return reversed(image_dyadic(plan, material, band, wedge.direction, -k_out, way, normal));
       };
-      if (patch == came && patch != leaves) return there();
-      if (patch == leaves && patch != came) return back();
-      return mean(there(), back());
+      if (patch == came.patch && patch != leaves.patch) return there(came.length);
+      if (patch == leaves.patch && patch != came.patch) return back(leaves.length);
+      return mixed(face_share(std::abs(dot(k_in, normal)), std::abs(dot(k_out, normal))), there(passage.s_in),
+                   back(passage.s_out));
     };
     face0_ = dyadic(wedge.patch0, wedge.material0, wedge.normal0);
     if (!wedge.free_rim) facen_ = dyadic(wedge.patchn, wedge.materialn, wedge.normaln());
@@ -148,6 +174,12 @@ class EdgeFaces {
  private:
   Dyadic face0_{}, facen_{};
 };
+
+/// True if the term is that of the image in `face`.
+bool images_in(const Wedge& wedge, const EdgeTerm& term, std::uint32_t face) {
+  return face != no_index && ((term.boundary == Boundary::face0 && wedge.patch0 == face) ||
+                              (term.boundary == Boundary::facen && wedge.patchn == face));
+}
 
 /// The two components of a wave in the cone frame of an edge (sound: pressure, 0).
 using Pair = std::array<Complex, 2>;
@@ -203,9 +235,7 @@ double power_bound(const Scene& scene, const Plan& plan, std::span<const Interac
   return unit * amplitude * amplitude;
 }
 
-double boundary_parameter(const Scene& scene, const PathGeometry& geometry, std::size_t edge, Boundary boundary,
-                          double wavelength) {
-  const EdgePassage& passage = geometry.edges[edge];
+double boundary_parameter(const Scene& scene, const EdgePassage& passage, Boundary boundary, double wavelength) {
   // The transition region of an edge in a chain is that of the legs next to it.
   const double effective = passage.s_in * passage.s_out / (passage.s_in + passage.s_out);
   return fresnel_parameter(effective, wavelength, passage.sin_beta,
@@ -229,14 +259,16 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
   for (std::size_t band = 0; band < plan.bands(); ++band) {
     const double wavenumber = plan.wavenumber[band], wavelength = 2 * pi / wavenumber;
     // Between two edges there is one wave for each term of the edge before; at the ends of the path one in all.
-    std::array<ChainWave<ComplexVec3>, max_terms> wave;
+    // `unseen`: without its image in the face along which it goes on.
+    std::array<ChainWave<ComplexVec3>, max_terms> wave, unseen;
     wave[0].whole = radio ? ComplexVec3{launched.x, launched.y, launched.z} : ComplexVec3{1.0, 0.0, 0.0};
     std::size_t waves = 1, edge_number = 0;
     double weight = 1;
     EdgeTerms before;
+    const Wedge* wedge_before = nullptr;
     std::optional<EndWeights> ends_before;
     std::array<Complex, max_terms> weights_before, weights;
-    std::uint32_t came = no_index;
+    FaceWay came;
     for (std::size_t i = 0; i < interactions.size(); ++i) {
       if (!is_edge(interactions[i])) {
         const Patch& patch = scene.patches.patches[interactions[i]];
@@ -256,11 +288,11 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
       const EdgePassage& passage = geometry.edges[edge_number];
       const Wedge& wedge = scene.wedges.wedges[passage.wedge];
       const bool first = edge_number == 0, last = edge_number + 1 == edges;
-      const EndWeights ends(wedge, passage, wavelength, wavenumber);
-      std::uint32_t leaves = no_index;
-      if (!last && is_edge(interactions[i + 1])) leaves = grazed_face(scene, passage, geometry.edges[edge_number + 1]);
+      const EndWeights ends(wedge, passage, wavelength, wavenumber, plan.request.reflection);
+      FaceWay leaves;
+      if (!last && is_edge(interactions[i + 1])) leaves = way_along_face(scene, geometry, edge_number, wavelength);
       // The wave along a face that both edges bound is there as itself and as its image.
-      if (faces && leaves != no_index) weight *= 0.5;
+      if (faces && leaves.patch != no_index) weight *= 0.5;
       EdgeTerms terms =
           edge_terms(plan.request.diffraction_model, faces, wedge, passage, chain.distance[edge_number], wavenumber);
       if (!first && !last)
@@ -275,9 +307,14 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
       const auto out_of_frame = [&](const std::array<Complex, 2>& w) {
         return radio ? combine(w[0], out.beta, w[1], out.phi) : ComplexVec3{w[0], 0.0, 0.0};
       };
-      std::array<ChainWave<Pair>, max_terms> arriving;
-      for (std::size_t a = 0; a < waves; ++a)
-        arriving[a] = {in_frame(wave[a].whole), edge_number > 1 ? in_frame(wave[a].slope) : Pair{}};
+      std::array<ChainWave<Pair>, max_terms> arriving, arriving_unseen;
+      const auto arrive = [&](const ChainWave<ComplexVec3>& w) -> ChainWave<Pair> {
+        return {in_frame(w.whole), edge_number > 1 ? in_frame(w.slope) : Pair{}};
+      };
+      for (std::size_t a = 0; a < waves; ++a) {
+        arriving[a] = arrive(wave[a]);
+        if (came.patch != no_index) arriving_unseen[a] = arrive(unseen[a]);
+      }
       for (std::size_t t = 0; t < terms.count; ++t) weights[t] = ends.of(terms.term[t]);
       // Weights of both edges of two in a pair of their terms, where ends couple with a term.
       const bool ends_couple = edges == 2 && last && (couples(before) || couples(terms));
@@ -295,18 +332,25 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
         return weight1 * weight2;
       };
       for (std::size_t a = 0; edges == 2 && last && !ends_couple && a < waves; ++a)
-        for (Complex& part : arriving[a].whole) part *= weights_before[a];
+        for (std::size_t p = 0; p < 2; ++p) {
+          arriving[a].whole[p] *= weights_before[a];
+          if (came.patch != no_index) arriving_unseen[a].whole[p] *= weights_before[a];
+        }
       // Per term: all that arrives, through its face. A first edge leaves its factors to the pairs with the second.
-      std::array<ChainWave<Pair>, max_terms> leaving{};
+      std::array<ChainWave<Pair>, max_terms> leaving{}, leaving_unseen;
       for (std::size_t t = 0; t < terms.count; ++t) {
         const EdgeTerm& term = terms.term[t];
-        ChainWave<Pair> sum{};
+        // An image in the face along which it came, mirrored in it again, is the wave itself.
+        const bool in_face = images_in(wedge, term, came.patch);
+        ChainWave<Pair> sum{}, mirrored_back{};
         for (std::size_t a = 0; a < waves; ++a) {
-          const ChainWave<Pair>& w = arriving[a];
+          const bool back = in_face && images_in(*wedge_before, before.term[a], came.patch);
+          const ChainWave<Pair>& w = back ? arriving_unseen[a] : arriving[a];
+          ChainWave<Pair>& into = back ? mirrored_back : sum;
           if (edges > 2 && !first) {
             add(edge_number == 1 ? first_step(before.term[a], term, coupling)
                                  : next_step(before.term[a], term, coupling),
-                w, sum);
+                w, into);
             continue;
           }
           Complex factor = 1;
@@ -315,25 +359,31 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
           else if (last)
             factor = term.value();
           if (ends_couple) factor *= both_ends(a, t);
-          for (std::size_t p = 0; p < 2; ++p) sum.whole[p] += factor * w.whole[p];
+          for (std::size_t p = 0; p < 2; ++p) into.whole[p] += factor * w.whole[p];
         }
         // The first of two edges leaves its weights to the second.
         const Complex there = ends_couple || (edges == 2 && first) ? Complex(1) : weights[t];
-        const auto leave = [&](const Pair& w, Pair& to) {
+        const auto leave = [&](const Pair& w, const Pair& back, Pair& to) {
           const auto seen = faces ? at_faces->seen_at(term.boundary, w) : w;
-          to[0] += there * seen[0];
-          to[1] += there * seen[1];
+          for (std::size_t p = 0; p < 2; ++p) to[p] += there * (seen[p] + back[p]);
         };
-        leave(sum.whole, leaving[last ? 0 : t].whole);
-        if (first || last) continue;
-        leave(sum.slope, leaving[t].slope);
+        const bool slopes = !first && !last;
+        leave(sum.whole, mirrored_back.whole, leaving[last ? 0 : t].whole);
+        if (slopes) leave(sum.slope, mirrored_back.slope, leaving[t].slope);
+        if (leaves.patch == no_index) continue;
+        for (std::size_t p = 0; p < 2; ++p)
+          leaving_unseen[t].whole[p] = there * (sum.whole[p] + mirrored_back.whole[p]);
+        for (std::size_t p = 0; p < 2; ++p)
+          leaving_unseen[t].slope[p] = there * (sum.slope[p] + mirrored_back.slope[p]);
       }
       waves = last ? 1 : terms.count;
       for (std::size_t a = 0; a < waves; ++a) {
-        wave[a].whole = out_of_frame(leaving[a].whole);
-        if (!first && !last) wave[a].slope = out_of_frame(leaving[a].slope);
+        wave[a] = {out_of_frame(leaving[a].whole), out_of_frame(leaving[a].slope)};
+        if (leaves.patch != no_index)
+          unseen[a] = {out_of_frame(leaving_unseen[a].whole), out_of_frame(leaving_unseen[a].slope)};
       }
       before = terms;
+      wedge_before = &wedge;
       ends_before = ends;
       weights_before = weights;
       came = leaves;

@@ -17,17 +17,16 @@ namespace grimaldi {
 /// path gain. In free space h = λ/4π e^{−jkr}/r for radio, 1/√(4π) e^{−jkr}/r (1/m) for sound. Formula: faces by their
 /// coefficients and Jones vectors; an edge by the model of the plan. `utd`: the four terms of Kouyoumjian & Pathak,
 /// faces always on. `fsd`: the free-space diffraction law (three black edges: incident wave and its images in both
-/// faces; the incident one alone where the run has no reflection; the images by the faces' Fresnel dyadics, the mean of
-/// the way there and the way back), weight of its ends T = H + Σ w UV for each term, w by `edge_end_share`; over two
-/// edges, where a term of the other edge has an argument b below 2, U(b) UV becomes `end_and_edge_wave` and w that of
-/// the arguments that term and end have without the other edge (a fade from 1 on). Spreading of the whole chain of
-/// edges (`edge_chain`). Neighbouring edges: each pair of their terms by the double-edge wave, faces between them or
-/// not; of three and more the couplings of neighbours, chained (`next_step`). Two edges of one face,
-/// along which the wave goes: half of the sum over all pairs, with the face's coefficient for that way at both edges:
-/// over a rigid face the wave counts once, of a soft one what is left is the coupling of the slopes. A way of length s
-/// to or from an edge meets a face at no less than 1/√(ks), the width of the transition at grazing incidence. Source:
-/// the half, Kouyoumjian & Pathak; the angle, Sommerfeld's numerical distance. Air: attenuation of the plan over the
-/// whole length.
+/// faces; the incident one alone where the run has no reflection; the images by the faces' Fresnel dyadics for
+/// the way there and the way back, by `face_share`), weight of its ends T = H + Σ w UV for each term, w by
+/// `edge_end_share`; over two edges, where a term of the other edge has an argument b below 2, U(b) UV becomes
+/// `end_and_edge_wave` and w that of the arguments that term and end have without the other edge (a fade from 1 on).
+/// Spreading of the whole chain of edges (`edge_chain`). Neighbouring edges: each pair of their terms by the
+/// double-edge wave, faces between them or not; of three and more the couplings of neighbours, chained (`next_step`).
+/// Two edges of one face, along which the wave goes: half of the sum over all pairs, with the face's coefficient for
+/// that way at both edges: over a rigid face the wave counts once, of a soft one what is left is the coupling of the
+/// slopes. A way to or from an edge meets a face by `reflection_along`. Source: the half, Kouyoumjian & Pathak. Air:
+/// attenuation of the plan over the whole length.
 void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmitter,
                 std::span<const Interaction> interactions, const PathGeometry& geometry,
                 std::span<std::array<std::complex<double>, 2>> field);
@@ -37,8 +36,7 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
 double power_bound(const Scene& scene, const Plan& plan, std::span<const Interaction> interactions,
                    const PathGeometry& geometry);
 
-/// Fresnel-Kirchhoff parameter of the passage `edge` (index in geometry.edges) at a boundary, at `wavelength` m; v ≥ 0.
-double boundary_parameter(const Scene& scene, const PathGeometry& geometry, std::size_t edge, Boundary boundary,
-                          double wavelength);
+/// Fresnel-Kirchhoff parameter of a passage at a boundary, at `wavelength` m; v ≥ 0.
+double boundary_parameter(const Scene& scene, const EdgePassage& passage, Boundary boundary, double wavelength);
 
 }  // namespace grimaldi

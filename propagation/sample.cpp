@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <utility>
 
 #include "core/blocks.h"
 #include "core/constants.h"
@@ -242,12 +243,14 @@ class EdgeSampler {
     if (!lit.sector.faces) return std::norm(waves[0]);
     std::complex<double> te = waves[0], tm = waves[0];
     const auto add = [&](std::complex<double> wave, std::uint32_t material, double azimuth_in, double azimuth_out) {
-      for (const double azimuth : {azimuth_in, azimuth_out}) {
-        // Sound's walls are the same at every angle.
-        const ReflectionCoefficients r =
-            face_reflection(plan_, material, band_, std::min(1.0, start.sin_beta * std::abs(std::sin(azimuth))));
-        te += 0.5 * r.te * wave;
-        tm += 0.5 * r.tm * wave;
+      const double in = start.sin_beta * std::abs(std::sin(azimuth_in));
+      const double out = start.sin_beta * std::abs(std::sin(azimuth_out));
+      const double share = face_share(in, out);
+      // Sound's walls are the same at every angle.
+      for (const auto& [cosine, part] : {std::pair{in, share}, std::pair{out, 1 - share}}) {
+        const ReflectionCoefficients r = face_reflection(plan_, material, band_, std::min(1.0, cosine));
+        te += part * r.te * wave;
+        tm += part * r.tm * wave;
       }
     };
     const EdgeSector& sector = lit.sector;
@@ -269,6 +272,10 @@ class EdgeSampler {
     for (const bool last : {false, true}) {
       const Vec3 end = last ? wedge.end() : wedge.start;
       const bool inside = last ? start.along <= wedge.length : start.along >= 0;
+      if (last ? wedge.stands_at_end : wedge.stands_at_start) {
+        if (!inside) return false;
+        if (plan_.request.reflection) continue;
+      }
       const double detour = std::max(0.0, distance(source, end) + distance(end, receiver) - start.s_in - s_out);
       const double v_end = 2 * std::sqrt(detour / wavelength_);
       if (!inside && v_end >= end_parameter_limit) return false;

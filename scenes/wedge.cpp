@@ -5,6 +5,7 @@
 
 #include "core/constants.h"
 #include "core/contract.h"
+#include "scenes/edge_foot.h"
 #include "scenes/edge_table.h"
 #include "scenes/piece.h"
 #include "scenes/surroundings.h"
@@ -192,6 +193,7 @@ Wedges find_wedges(const std::vector<Vec3>& vertices, const std::vector<std::arr
     add(result.report.propagating, piece.wedge.length);
   }
   keep_corners(vertices.size(), result.wedges);
+  find_feet(surroundings, result.wedges);
   list_by_triangle(merged, triangles.size(), result);
   return result;
 }

@@ -26,6 +26,8 @@ struct Wedge {
   std::uint32_t material0, materialn;
   std::uint32_t vertex_start, vertex_end;  ///< corners at its ends: welded vertices where another wedge ends too;
                                            ///< no_index where it ends alone
+  /// That end stands upright on a face: mirrored in it the edge goes on, and no wave leaves the end.
+  bool stands_at_start = false, stands_at_end = false;
   bool free_rim = false;
   double sin_exterior = 0, cos_exterior = 1, sin_half = 0, cos_half = -1;  ///< of the exterior angle and of its half
   Vec3 normaln() const {

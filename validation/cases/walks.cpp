@@ -59,12 +59,9 @@ SceneDescription flat_roof() { return deep_blocks({{0, 10, 0}}, 500, 500); }
 SceneDescription two_roofs() { return deep_blocks({{0, 10, 0}, {30, 10, 1}}, 500, 500); }
 
 constexpr const char* goal = "the goal of a level without steps";
-constexpr const char* weak_ties =
-    "a defect: a weak path that begins or ends (over two edges near their corner) ties stronger ones, which then add "
-    "as "
-    "fields and not as powers; the goal is 0.5 dB";
+/// Levels further below free space count as this: what cancels so far has no level to be continuous, dB.
+constexpr double lowest = -60;
 
-/// The bounds of this suite: the goal is 0.5 dB, the others are what was measured, to be tightened.
 const Walk walks[] = {
     {"corner-one-face",
      "around a right-angled corner, one face lit",
@@ -148,8 +145,8 @@ const Walk walks[] = {
      4,
      {150, 0, 1.5},
      {-30, 0, 1.5},
-     2,
-     weak_ties,
+     0.5,
+     goal,
      13},
     {"over-a-roof", "down behind a flat roof", flat_roof, {-40, 0, 2}, 2, {25, 0, 6}, {25, 0, -15}, 0.5, goal},
     {"over-two-roofs", "down behind two flat roofs", two_roofs, {-40, 0, 2}, 4, {55, 0, 8}, {55, 0, -15}, 0.5, goal},
@@ -164,7 +161,9 @@ std::vector<double> levels(const Scene& scene, const Walk& walk, const Wave& wav
   plan.transmitters[0].antenna.polarisation = wave.polarisation;
   for (const double share : shares) add_receiver(plan, walk.at(share));
   std::vector<double> list;
-  for (const ReceiverProfile& profile : run_engine(scene, plan).profiles) list.push_back(decibel(profile.total[0]));
+  for (const ReceiverProfile& profile : run_engine(scene, plan).profiles)
+    list.push_back(
+        std::max(decibel(profile.total[0]), decibel(free_gain(plan, walk.transmitter, profile.position)) + lowest));
   return list;
 }
 
@@ -184,8 +183,6 @@ Outcome largest_jump(const Walk& walk, const Wave& wave, DiffractionModel model)
     for (std::size_t i = 1; i < shares.size(); ++i)
       if (i % pieces != 0 || pieces == shares.size())
         steps.push_back({shares[i - 1], shares[i], std::abs(level[i] - level[i - 1])});
-    for (Step& step : steps)
-      if (std::isnan(step.size)) step.size = 0;  // nothing on either side
   };
   std::vector<double> shares;
   for (int i = 0; i < points; ++i) shares.push_back((i + 0.37) / points);
