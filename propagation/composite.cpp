@@ -79,61 +79,71 @@ void CompositeSum::enter(std::span<const Arrival> arrivals, Polarisation polaris
   }
 }
 
-void CompositeSum::note(std::uint32_t bounded, std::uint32_t node, std::size_t edge, std::size_t position,
-                        Interaction face, double v) {
+void CompositeSum::note(std::uint32_t other, std::uint32_t node, const Bounded& wave) {
   const Node& from = nodes_[node];
-  Node& to = nodes_[bounded];
-  if (!(from.apart + v < to.apart)) return;
-  to.apart = from.apart + v;
+  Node& to = nodes_[other];
+  if (!(from.apart + wave.v < to.apart)) return;
+  to.apart = from.apart + wave.v;
   to.interactions = from.interactions;
   to.edges = from.edges;
-  const auto at = to.interactions.begin() + static_cast<std::ptrdiff_t>(position);
-  if (face == no_interaction)
+  const auto at = to.interactions.begin() + static_cast<std::ptrdiff_t>(wave.position);
+  if (wave.face == no_interaction)
     to.interactions.erase(at);
   else
-    *at = face;
-  const double leg = from.edges[edge].s_in + from.edges[edge].s_out;
-  to.edges.erase(to.edges.begin() + static_cast<std::ptrdiff_t>(edge));
-  if (edge > 0) to.edges[edge - 1].s_out = leg;
-  if (edge < to.edges.size()) to.edges[edge].s_in = leg;
+    *at = wave.face;
+  const double leg = from.edges[wave.edge].s_in + from.edges[wave.edge].s_out;
+  to.edges.erase(to.edges.begin() + static_cast<std::ptrdiff_t>(wave.edge));
+  if (wave.edge > 0) to.edges[wave.edge - 1].s_out = leg;
+  if (wave.edge < to.edges.size()) to.edges[wave.edge].s_in = leg;
+}
+
+void CompositeSum::tie(std::uint32_t node, const Bounded& wave, double beyond_end, bool nearest) {
+  const auto weight = [&](std::size_t band) {
+    const double scale = std::sqrt(plan_->wavenumber[band] / plan_->wavenumber.front());
+    const double bridge = nearest ? 1 : bridging(nodes_[node].power[band], power_[band]);
+    return bridge * fade(wave.v * scale, full_coherence) * fade(beyond_end * scale, full_end);
+  };
+  // The longest wave is coherent the furthest.
+  if (nearest ? weight(0) == 0 : !bridges(node)) return;
+  const std::uint32_t other = node_of(hash_without(nodes_[node].interactions, wave.position, wave.face));
+  ties_.push_back({other, node, static_cast<std::uint32_t>(weights_.size())});
+  for (std::size_t band = 0; band < plan_->bands(); ++band) {
+    weights_.push_back(weight(band));
+    nodes_[other].power[band] = std::max(nodes_[other].power[band], weights_.back() * nodes_[node].power[band]);
+  }
+  if (other >= arrivals_) note(other, node, wave);
+}
+
+bool CompositeSum::bridges(std::uint32_t node) const {
+  for (std::size_t band = 0; band < plan_->bands(); ++band)
+    if (bridging(nodes_[node].power[band], power_[band]) > 0) return true;
+  return false;
 }
 
 void CompositeSum::tie_upward(std::uint32_t node) {
   const double longest = 2 * pi / plan_->wavenumber.front();
-  const auto edges = [&]() -> const std::vector<EdgePassage>& { return nodes_[node].edges; };
   double beyond_end = 0;  // v_V
-  for (const EdgePassage& passage : edges())
+  std::size_t position = 0;
+  bounded_.clear();
+  for (std::size_t e = 0; e < nodes_[node].edges.size(); ++e, ++position) {
+    while (!is_edge(nodes_[node].interactions[position])) ++position;
+    const EdgePassage& passage = nodes_[node].edges[e];
     if (!passage.inside) {
       const double detour = passage.along < 0 ? passage.detour_start : passage.detour_end;
       beyond_end = std::max(beyond_end, 2 * std::sqrt(detour / longest));
     }
-  const std::size_t first_tie = ties_.size();
-  std::size_t position = 0, nearest = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t e = 0; e < edges().size(); ++e, ++position) {
-    while (!is_edge(nodes_[node].interactions[position])) ++position;
-    const Wedge& wedge = scene_->wedges.wedges[edges()[e].wedge];
-    const std::pair<Boundary, std::uint32_t> bounded[3] = {
+    const Wedge& wedge = scene_->wedges.wedges[passage.wedge];
+    const std::pair<Boundary, Interaction> bounded[3] = {
         {Boundary::incident, no_interaction}, {Boundary::face0, wedge.patch0}, {Boundary::facen, wedge.patchn}};
     const std::size_t kinds = !plan_->request.reflection ? 1 : wedge.free_rim ? 2 : 3;
     for (std::size_t kind = 0; kind < kinds; ++kind) {
-      const auto [boundary, face] = bounded[kind];
-      const double v = boundary_parameter(*scene_, edges()[e], boundary, longest);
-      if (v >= no_coherence) continue;
-      const std::uint32_t other = node_of(hash_without(nodes_[node].interactions, position, face));
-      if (v < least) least = v, nearest = ties_.size();
-      ties_.push_back({other, node, static_cast<std::uint32_t>(weights_.size())});
-      for (std::size_t band = 0; band < plan_->bands(); ++band) {
-        const double scale = std::sqrt(plan_->wavenumber[band] / plan_->wavenumber.front());
-        weights_.push_back(fade(v * scale, full_coherence) * fade(beyond_end * scale, full_end));
-        nodes_[other].power[band] = std::max(nodes_[other].power[band], weights_.back() * nodes_[node].power[band]);
-      }
-      if (other >= arrivals_) note(other, node, e, position, face, v);
+      const double v = boundary_parameter(*scene_, passage, bounded[kind].first, longest);
+      if (v < no_coherence) bounded_.push_back({e, position, bounded[kind].second, v});
     }
   }
-  for (std::size_t tie = first_tie; tie < ties_.size(); ++tie)
-    for (std::size_t band = 0; tie != nearest && band < plan_->bands(); ++band)
-      weights_[ties_[tie].weights + band] *= bridging(nodes_[node].power[band], power_[band]);
+  const auto nearest =
+      std::min_element(bounded_.begin(), bounded_.end(), [](const Bounded& x, const Bounded& y) { return x.v < y.v; });
+  for (auto wave = bounded_.begin(); wave != bounded_.end(); ++wave) tie(node, *wave, beyond_end, wave == nearest);
 }
 
 void CompositeSum::tie_to_composites() {

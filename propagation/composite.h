@@ -73,12 +73,19 @@ class CompositeSum {
     std::uint32_t a, b;
     std::uint32_t weights;  ///< first of its weights, one per band
   };
+  /// A wave that an edge of a node bounds.
+  struct Bounded {
+    std::size_t edge, position;  ///< among the node's edges and among its interactions
+    Interaction face;            ///< in place of the edge, or no_interaction
+    double v;                    ///< of the boundary
+  };
   void enter(std::span<const Arrival> arrivals, Polarisation polarisation);
   void tie_to_composites();
   void tie_upward(std::uint32_t node);
+  void tie(std::uint32_t node, const Bounded& wave, double beyond_end, bool nearest);
   void tie_corners(std::uint32_t node);
-  void note(std::uint32_t bounded, std::uint32_t node, std::size_t edge, std::size_t position, Interaction face,
-            double v);
+  bool bridges(std::uint32_t node) const;
+  void note(std::uint32_t other, std::uint32_t node, const Bounded& wave);
   void span_tree();
   double at_the_point(std::span<const Arrival> arrivals, std::size_t band, Polarisation polarisation);
   double over_a_square(std::span<const Arrival> arrivals, std::size_t band, Polarisation polarisation, double extent);
@@ -93,6 +100,7 @@ class CompositeSum {
   std::vector<Node> nodes_;  ///< the first node_count_ of them
   std::size_t node_count_ = 0, arrivals_ = 0;
   std::vector<double> power_;        ///< per band, of all arrivals
+  std::vector<Bounded> bounded_;  ///< of one node
   std::vector<std::uint32_t> root_;  ///< union-find
   struct Branch {
     std::uint32_t node, parent, weights;

@@ -157,8 +157,12 @@ class EdgeFaces {
       };
       if (patch == came.patch && patch != leaves.patch) return there(came.length);
       if (patch == leaves.patch && patch != came.patch) return back(leaves.length);
-      return mixed(face_share(std::abs(dot(k_in, normal)), std::abs(dot(k_out, normal))), there(passage.s_in),
-                   back(passage.s_out));
+      // Each way has a width, 1/√(ks): two ways along the face share by that, not by the rounding of their angles.
+      const auto cosine = [&](const Vec3& k, double way) {
+        return std::hypot(dot(k, normal), 1 / std::sqrt(plan.wavenumber[band] * way));
+      };
+      const double share = face_share(cosine(k_in, passage.s_in), cosine(k_out, passage.s_out));
+      return mixed(share, there(passage.s_in), back(passage.s_out));
     };
     face0_ = dyadic(wedge.patch0, wedge.material0, wedge.normal0);
     if (!wedge.free_rim) facen_ = dyadic(wedge.patchn, wedge.materialn, wedge.normaln());
@@ -269,6 +273,7 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
     std::optional<EndWeights> ends_before;
     std::array<Complex, max_terms> weights_before, weights;
     FaceWay came;
+    bool twice_before = false;
     for (std::size_t i = 0; i < interactions.size(); ++i) {
       if (!is_edge(interactions[i])) {
         const Patch& patch = scene.patches.patches[interactions[i]];
@@ -293,6 +298,8 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
       if (!last && is_edge(interactions[i + 1])) leaves = way_along_face(scene, geometry, edge_number, wavelength);
       // The wave along a face that both edges bound is there as itself and as its image.
       if (faces && leaves.patch != no_index) weight *= 0.5;
+      // Three edges along one face: which of the images is which is not kept.
+      const bool twice = leaves.patch != no_index && leaves.patch == came.patch;
       EdgeTerms terms =
           edge_terms(plan.request.diffraction_model, faces, wedge, passage, chain.distance[edge_number], wavenumber);
       if (!first && !last)
@@ -341,7 +348,7 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
       for (std::size_t t = 0; t < terms.count; ++t) {
         const EdgeTerm& term = terms.term[t];
         // An image in the face along which it came, mirrored in it again, is the wave itself.
-        const bool in_face = images_in(wedge, term, came.patch);
+        const bool in_face = !twice && !twice_before && images_in(wedge, term, came.patch);
         ChainWave<Pair> sum{}, mirrored_back{};
         for (std::size_t a = 0; a < waves; ++a) {
           const bool back = in_face && images_in(*wedge_before, before.term[a], came.patch);
@@ -387,6 +394,7 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
       ends_before = ends;
       weights_before = weights;
       came = leaves;
+      twice_before = twice;
       ++edge_number;
     }
     const double scale = radio ? wavelength / (4 * pi) : 1 / std::sqrt(4 * pi);

@@ -167,7 +167,8 @@ TEST_P(Chains, ExchangeOfTheEnds) {
         worst = std::max(worst, std::abs(test::decibel(std::norm(forth[0]) / std::norm(again[0]))));
       }
       std::printf("%s, %zu edges%s: %.1e dB\n", material, edges, face_between ? ", a face between" : "", worst);
-      EXPECT_LT(worst, 1e-6);
+      // Along metal a wave and its image cancel to 1e-4, and Newton's rounding is that much greater.
+      EXPECT_LT(worst, std::string(material) == "metal" ? 1e-5 : 1e-6);
       EXPECT_LT(lost, 15);  // Newton starts elsewhere: ways past corners are not always found again
     }
   }
