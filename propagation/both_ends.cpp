@@ -13,6 +13,7 @@
 #include "propagation/fermat.h"
 #include "propagation/field.h"
 #include "propagation/launcher.h"
+#include "propagation/patch_rims.h"
 
 namespace grimaldi {
 namespace {
@@ -97,6 +98,7 @@ class Joiner {
         to_(to),
         known_(known),
         sequences_(sequences),
+        rims_(scene),
         gap_(tracer.surface_gap()),
         wavelength_(2 * pi / plan.wavenumber.front()) {}
 
@@ -116,6 +118,28 @@ class Joiner {
   void behind_mirrors(const EndView::Edge& edge, Block& out) const {
     for (const EndView::Mirror& mirror : from_.mirrors())
       if (in_mirror(edge, to_.eye(), mirror)) propose(mirror.patches, {edge.wedge}, {}, out);
+  }
+  /// Two edges of one face, then the mirrors of the receiver, whose image the first edge's own solid hides from it; or
+  /// the same from the other end.
+  void over_a_face(const EndView::Edge& edge, bool from_receiver, Block& out) const {
+    const EndView &own = from_receiver ? to_ : from_, &other = from_receiver ? from_ : to_;
+    const Wedge& wedge = scene_.wedges.wedges[edge.wedge];
+    for (const EndView::Mirror& mirror : other.mirrors()) {
+      const Vec3 way = mirror.image - wedge.start;
+      if (dot(way, wedge.normal0) >= 0 || dot(way, wedge.normaln()) >= 0) continue;
+      if (static_cast<int>(mirror.patches.size()) + 2 > plan_.request.depth) continue;
+      for (const std::uint32_t patch : {wedge.patch0, wedge.patchn})
+        for (const std::uint32_t second : rims_.of(patch)) {
+          if (second == edge.wedge) continue;
+          const Wedge& next = scene_.wedges.wedges[second];
+          const Vec3 passed = next.point(passed_at(second, own.eye(), mirror.image) * next.length);
+          if (!crosses_box(scene_.patches.patches[mirror.patches.back()], mirror.image, passed)) continue;
+          if (from_receiver)
+            propose(mirror.patches, {second, edge.wedge}, {}, out);
+          else
+            propose({}, {edge.wedge, second}, mirror.patches, out);
+        }
+    }
   }
   void two_edges(const EndView::Edge& first, Block& out) const {
     const Wedge& wedge = scene_.wedges.wedges[first.wedge];
@@ -171,6 +195,7 @@ class Joiner {
   const Plan& plan_;
   const EndView &from_, &to_;
   const SequenceTable &known_, &sequences_;
+  const PatchRims rims_;
   const double gap_, wavelength_;
 };
 
@@ -248,6 +273,7 @@ std::vector<std::uint32_t> add_from_both_ends(const Scene& scene, const Tracer& 
   const auto &first = from_transmitter.edges(), &last = from_receiver.edges();
   constexpr std::size_t edges_per_block = 16;
   const std::size_t edges = std::max(first.size(), last.size());
+  const bool two = plan.request.depth > 1 && most_edges(plan.request) > 1;
   std::vector<Block> blocks((edges + edges_per_block - 1) / edges_per_block);
   for_each_block(
       blocks.size(), plan.request.threads,
@@ -257,9 +283,13 @@ std::vector<std::uint32_t> add_from_both_ends(const Scene& scene, const Tracer& 
           if (i < first.size()) {
             joiner.one_edge(first[i], block);
             joiner.before_mirrors(first[i], block);
-            if (plan.request.depth > 1 && most_edges(plan.request) > 1) joiner.two_edges(first[i], block);
+            if (two) joiner.two_edges(first[i], block);
+            if (two) joiner.over_a_face(first[i], false, block);
           }
-          if (i < last.size()) joiner.behind_mirrors(last[i], block);
+          if (i < last.size()) {
+            joiner.behind_mirrors(last[i], block);
+            if (two) joiner.over_a_face(last[i], true, block);
+          }
         }
       },
       stop);

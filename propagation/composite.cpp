@@ -24,6 +24,9 @@ double fade(double x, double full) {
 constexpr double full_bridge = 1. / 300;  ///< share of the power from which a wave ties what it belongs to
 constexpr double no_bridge = 1. / 3000;   ///< and up to which it does not
 
+/// Share of the power up to which a wave adds its power alone: its cross terms would be 0.01 dB.
+constexpr double without_cross_terms = 1e-6;
+
 /// The fade between the two, over the logarithm.
 double bridging(double power, double whole) {
   if (power >= full_bridge * whole) return 1;
@@ -76,6 +79,12 @@ void CompositeSum::enter(std::span<const Arrival> arrivals, Polarisation polaris
     node.apart = 0;
     for (std::size_t band = 0; band < plan_->bands(); ++band)
       power_[band] += node.power[band] = received_power(arrival.field[band], polarisation);
+  }
+  for (std::size_t i = 0; i < arrivals_; ++i) {
+    bool counts = false;
+    for (std::size_t band = 0; band < plan_->bands(); ++band)
+      counts = counts || nodes_[i].power[band] > without_cross_terms * power_[band];
+    if (!counts) nodes_[i].edges.clear();
   }
 }
 

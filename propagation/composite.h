@@ -42,13 +42,13 @@ double received_power(const std::array<std::complex<double>, 2>& field, Polarisa
 /// tied to the waves that its edges bound, as passed by the path nearest to it. Edges that end at one corner, before
 /// and after the same other interactions, are tied there, each with 1 up to r_F from it and a fade to 0 at 2 r_F. A
 /// wave ties the waves that it belongs to with one another only as far as it has power, itself or in what belongs to
-/// it: 1 from 1/300 of the whole, a fade to 0 at 1/3000: what is so weak may have been left out. γ_ab is the product of
-/// the weights along the way from a to b over these ties (of several ways the strongest: the maximum spanning tree of
-/// the first band): 1 for a wave and an edge on its boundary, t_a t_b for two edges of one wave, t t' for a direct and
-/// a reflected wave that one edge bounds both (near grazing they are one coherent wave). Products along a tree are a
-/// correlation, so power + interference = the mean power of correlated waves ≥ 0; it is continuous where a bounded wave
-/// appears or ends, since there its edge's wave jumps by as much. Source: physics of an edge, lines 8 to 10; the fades
-/// and what absent waves tie, own.
+/// it: 1 from 1/300 of the whole, a fade to 0 at 1/3000: what is so weak may have been left out. What has less than
+/// 1e-6 of it adds its power alone. γ_ab is the product of the weights along the way from a to b over these ties (of
+/// several ways the strongest: the maximum spanning tree of the first band): 1 for a wave and an edge on its boundary,
+/// t_a t_b for two edges of one wave, t t' for a direct and a reflected wave that one edge bounds both (near grazing
+/// they are one coherent wave). Products along a tree are a correlation, so power + interference = the mean power of
+/// correlated waves ≥ 0; it is continuous where a bounded wave appears or ends, since there its edge's wave jumps by as
+/// much. Source: physics of an edge, lines 8 to 10; the fades and what absent waves tie, own.
 class CompositeSum {
  public:
   CompositeSum(const Scene& scene, const Plan& plan) : scene_(&scene), plan_(&plan) {}
@@ -100,7 +100,7 @@ class CompositeSum {
   std::vector<Node> nodes_;  ///< the first node_count_ of them
   std::size_t node_count_ = 0, arrivals_ = 0;
   std::vector<double> power_;        ///< per band, of all arrivals
-  std::vector<Bounded> bounded_;  ///< of one node
+  std::vector<Bounded> bounded_;     ///< of one node
   std::vector<std::uint32_t> root_;  ///< union-find
   struct Branch {
     std::uint32_t node, parent, weights;

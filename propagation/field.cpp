@@ -159,7 +159,8 @@ class EdgeFaces {
       if (patch == leaves.patch && patch != came.patch) return back(leaves.length);
       // Each way has a width, 1/√(ks): two ways along the face share by that, not by the rounding of their angles.
       const auto cosine = [&](const Vec3& k, double way) {
-        return std::hypot(dot(k, normal), 1 / std::sqrt(plan.wavenumber[band] * way));
+        const double c = dot(k, normal);
+        return std::sqrt(c * c + 1 / (plan.wavenumber[band] * way));
       };
       const double share = face_share(cosine(k_in, passage.s_in), cosine(k_out, passage.s_out));
       return mixed(share, there(passage.s_in), back(passage.s_out));
