@@ -28,11 +28,6 @@ ReflectionCoefficients reflection_along(const Plan& plan, std::uint32_t material
           face_reflection(plan, material, band, std::max(cos_incidence, least(r.tm))).tm};
 }
 
-double face_share(double in, double out) {
-  const double whole = in * in + out * out;
-  return whole > 0 ? out * out / whole : 0.5;
-}
-
 ReflectanceTable::ReflectanceTable(const Plan& plan) : values_(plan.materials.size() * (steps + 1)) {
   for (std::size_t material = 0; material < plan.materials.size(); ++material)
     for (std::size_t i = 0; i <= steps; ++i) {

@@ -21,14 +21,6 @@ ReflectionCoefficients face_reflection(const Plan& plan, std::uint32_t material,
 ReflectionCoefficients reflection_along(const Plan& plan, std::uint32_t material, std::size_t band,
                                         double cos_incidence, double way);
 
-/// What an edge's image wave in a face has of the coefficient for the way to the edge, of cosine `in` to the face's
-/// normal; of that for the way from it, of cosine `out`, it has the rest. Formula: out²/(in² + out²).
-/// Source: own. The same with the ends exchanged but for the names; one half at the reflection boundary, where both
-/// coefficients are equal; and along the face the coefficient of the grazing way alone, so that the boundary condition
-/// holds there. Error against the exact wedge of impedance faces (Maliuzhinets), median in the shadow: half-plane 0.15
-/// dB, right angle 2.2 dB; the mean with equal shares 0.8 and 3.5 dB.
-double face_share(double in, double out);
-
 /// Share of the power that a face reflects at the first band, mean of both polarisations, read off a table over the
 /// cosine (256 steps, linear). For the flux ledger only; |error| below 1 % of the power.
 class ReflectanceTable {

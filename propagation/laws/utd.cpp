@@ -117,17 +117,22 @@ void utd_coefficients(double exterior_angle, std::span<const double> phi_in, std
   }
 }
 
+double face_share(double in, double out) {
+  const double whole = in * in + out * out;
+  return whole > 0 ? out * out / whole : 0.5;
+}
+
 FaceReflections reciprocal_face_reflections(const WedgeFace& face_0, const WedgeFace& face_n, double exterior_angle,
                                             double phi_in, double phi, double sin_beta, double wavenumber) {
-  const auto mean = [&](const WedgeFace& face, double one, double other) {
-    const auto at = [&](double angle) {
-      return slab_reflection(face.permittivity, face.thickness, wavenumber,
-                             std::min(1.0, sin_beta * std::abs(std::sin(angle))));
-    };
-    const ReflectionCoefficients a = at(one), b = at(other);
-    return ReflectionCoefficients{0.5 * (a.te + b.te), 0.5 * (a.tm + b.tm)};
+  const auto mixed = [&](const WedgeFace& face, double angle_in, double angle_out) {
+    const double in = std::min(1.0, sin_beta * std::abs(std::sin(angle_in)));
+    const double out = std::min(1.0, sin_beta * std::abs(std::sin(angle_out)));
+    const double share = face_share(in, out);
+    const auto a = slab_reflection(face.permittivity, face.thickness, wavenumber, in),
+               b = slab_reflection(face.permittivity, face.thickness, wavenumber, out);
+    return ReflectionCoefficients{share * a.te + (1 - share) * b.te, share * a.tm + (1 - share) * b.tm};
   };
-  return {mean(face_0, phi_in, phi), mean(face_n, exterior_angle - phi, exterior_angle - phi_in)};
+  return {mixed(face_0, phi_in, phi), mixed(face_n, exterior_angle - phi_in, exterior_angle - phi)};
 }
 
 WedgeTotal utd_plane_wave(double exterior_angle, double k_rho, double phi_in, double phi, double half_turn,

@@ -83,6 +83,14 @@ void utd_coefficients(double exterior_angle, std::span<const double> phi_in, std
                       std::span<const double> sin_beta, double wavenumber, std::span<const double> distance,
                       std::span<WedgeTerms> coefficients, BoundarySide side = BoundarySide::dark);
 
+/// What an edge's image wave in a face has of the coefficient for the way to the edge, of cosine `in` to the face's
+/// normal; of that for the way from it, of cosine `out`, it has the rest. Formula: out²/(in² + out²).
+/// Source: own. The same with the ends exchanged but for the names; one half at the reflection boundary, where both
+/// coefficients are equal; and along the face the coefficient of the grazing way alone, so that the boundary condition
+/// holds there. Error against the exact wedge of impedance faces (Maliuzhinets), median in the shadow: half-plane 0.15
+/// dB, right angle 2.2 dB; the mean with equal shares 0.8 and 3.5 dB.
+double face_share(double in, double out);
+
 /// A face as a slab in air, for the reflection coefficients of its two boundaries' terms.
 struct WedgeFace {
   std::complex<double> permittivity;
@@ -93,7 +101,8 @@ struct FaceReflections {
 };
 
 /// Coefficients of the faces that leave the diffracted field the same when the ends swap, and that are the faces' own
-/// at their reflection boundaries: R₀ = ½[R(φ') + R(φ)], R_n = ½[R(nπ−φ) + R(nπ−φ')], R at cos θ = sin β |sin angle|.
+/// at their reflection boundaries: R₀ = s R(φ') + (1−s) R(φ), s = face_share, R_n the same with nπ−φ' and nπ−φ, R at
+/// cos θ = sin β |sin angle|.
 /// Source: after Luebbers, IEEE Trans. AP 32 (1984), whose angles are not reciprocal. te goes with the soft, tm with
 /// the hard coefficient.
 FaceReflections reciprocal_face_reflections(const WedgeFace& face_0, const WedgeFace& face_n, double exterior_angle,
