@@ -106,8 +106,8 @@ Bound bound_of(const Roofs& roofs, bool soft, DiffractionModel model) {
   if (soft && roofs.blocks[0].top == roofs.blocks[1].top)
     return {
         3.5,
-        "a defect: of reflections between the walls of level roofs, hit at their upper rims, some are not found; all "
-        "paths of depth 4 err by 1.0 dB"};
+        "a fact: along the line of level roofs the waves between the rims of their walls are a series that converges "
+        "slowly: complete sets of paths of depth 4, 5, 6, 7 err by 4.4, 1.2, 0.8, 1.6 dB (hard 2.9, 3.4, 2.3 dB to 6)"};
   if (soft) return {0.5, "the goal for radio"};
   return {0.8,
           "a fact: paths of depth 4; all of depth 6 err by 0.2 to 0.3 dB over roofs of different heights. A defect: a "
