@@ -89,11 +89,9 @@ struct Dyadic {
   Complex bb, bp, pb, pp;
 };
 
-/// For a way of length `way` to the edge, in direction k.
-Dyadic image_dyadic(const Plan& plan, std::uint32_t material, std::size_t band, const Vec3& edge, const Vec3& k,
-                    double way, const Vec3& normal) {
+/// For a way to the edge in direction k, with those coefficients.
+Dyadic image_dyadic(const ReflectionCoefficients& r, const Vec3& edge, const Vec3& k, const Vec3& normal) {
   const double cosine = dot(k, normal);
-  const auto r = reflection_along(plan, material, band, std::abs(cosine), way);
   const Vec3 image = k - 2 * cosine * normal;
   Vec3 s = cross(k, normal);
   const double sine = norm(s);
@@ -140,31 +138,34 @@ FaceWay way_along_face(const Scene& scene, const PathGeometry& geometry, std::si
   return way;
 }
 
-/// The faces of one edge as its wave meets them: dyadics (sound: bb alone). Of a face's dyadics for the way there and
-/// for the way back the mean by `face_share`. Along a face that the edge before (`came`) or after (`leaves`) shares,
-/// the way between the two alone.
+/// The normal of a face turned about the edge until a wave of direction k meets it at the cosine c, on the same side.
+Vec3 turned_normal(const Vec3& edge, const Vec3& k, const Vec3& normal, double c) {
+  const Vec3 across = k - dot(k, edge) * edge;
+  const double sine = norm(across);
+  if (sine < 1e-9) return normal;
+  const Vec3 u = across / sine, v = cross(edge, u);
+  const double cosine = std::min(c / sine, 1.0), rest = std::sqrt((1 - cosine) * (1 + cosine));
+  return -cosine * u + (dot(normal, v) < 0 ? -rest : rest) * v;
+}
+
+/// Whose terms the images belong to.
+enum class ImageRule { utd, black };
+
+/// The faces of one edge as its wave meets them: dyadics (sound: bb alone), by the rules of laws/utd.h. Along a face
+/// that the edge before (`came`) or after (`leaves`) shares, the way between the two alone.
 class EdgeFaces {
  public:
-  EdgeFaces(const Plan& plan, const Wedge& wedge, const EdgePassage& passage, std::size_t band, const Vec3& k_in,
-            const Vec3& k_out, const FaceWay& came, const FaceWay& leaves) {
-    const auto dyadic = [&](std::uint32_t patch, std::uint32_t material, const Vec3& normal) -> Dyadic {
-      if (plan.request.kind != WaveKind::radio) return {face_reflection(plan, material, band, 1).te, 0, 0, 0};
-      const auto there = [&](double way) {
-        return image_dyadic(plan, material, band, wedge.direction, k_in, way, normal);
-      };
-      const auto back = [&](double way) {
-        return reversed(image_dyadic(plan, material, band, wedge.direction, -k_out, way, normal));
-      };
-      if (patch == came.patch && patch != leaves.patch) return there(came.length);
-      if (patch == leaves.patch && patch != came.patch) return back(leaves.length);
-      // Each way has a width, 1/√(ks): two ways along the face share by that, not by the rounding of their angles.
-      const auto cosine = [&](const Vec3& k, double way) {
-        const double c = dot(k, normal);
-        return std::sqrt(c * c + 1 / (plan.wavenumber[band] * way));
-      };
-      const double share = face_share(cosine(k_in, passage.s_in), cosine(k_out, passage.s_out));
-      return mixed(share, there(passage.s_in), back(passage.s_out));
-    };
+  EdgeFaces(const Plan& plan, ImageRule rule, const Wedge& wedge, const EdgePassage& passage, std::size_t band,
+            const Vec3& k_in, const Vec3& k_out, const FaceWay& came, const FaceWay& leaves)
+      : plan_(plan),
+        rule_(rule),
+        wedge_(wedge),
+        passage_(passage),
+        band_(band),
+        k_in_(k_in),
+        k_out_(k_out),
+        came_(came),
+        leaves_(leaves) {
     face0_ = dyadic(wedge.patch0, wedge.material0, wedge.normal0);
     if (!wedge.free_rim) facen_ = dyadic(wedge.patchn, wedge.materialn, wedge.normaln());
   }
@@ -177,6 +178,42 @@ class EdgeFaces {
   }
 
  private:
+  Dyadic dyadic(std::uint32_t patch, std::uint32_t material, const Vec3& normal) const {
+    if (plan_.request.kind != WaveKind::radio) return {face_reflection(plan_, material, band_, 1).te, 0, 0, 0};
+    const bool utd = rule_ == ImageRule::utd;
+    const auto met = [&](double cosine, double way) { return met_cosines(plan_, material, band_, cosine, way); };
+    const auto cosine = [&](const Vec3& k, double azimuth) {
+      return utd ? image_cosine(wedge_.exterior_angle, azimuth, passage_.sin_beta) : std::abs(dot(k, normal));
+    };
+    const double c_in = cosine(k_in_, passage_.phi_in), c_out = cosine(k_out_, passage_.phi_out);
+    const auto there = [&](const MetCosines& m, double c) {
+      return image_dyadic(face_reflection(plan_, material, band_, m), wedge_.direction, k_in_,
+                          utd ? turned_normal(wedge_.direction, k_in_, normal, c) : normal);
+    };
+    const auto back = [&](const MetCosines& m, double c) {
+      return reversed(image_dyadic(face_reflection(plan_, material, band_, m), wedge_.direction, -k_out_,
+                                   utd ? turned_normal(wedge_.direction, -k_out_, normal, c) : normal));
+    };
+    if (patch == came_.patch && patch != leaves_.patch) return there(met(c_in, came_.length), c_in);
+    if (patch == leaves_.patch && patch != came_.patch) return back(met(c_out, leaves_.length), c_out);
+    MetCosines m_in = met(c_in, came_.patch != no_index ? came_.length : passage_.s_in);
+    MetCosines m_out = met(c_out, leaves_.patch != no_index ? leaves_.length : passage_.s_out);
+    // Each way has a width, 1/√(ks): two ways along the face share by that, not by the rounding of their angles.
+    const auto wide = [&](double c, double way) { return std::sqrt(c * c + 1 / (plan_.wavenumber[band_] * way)); };
+    const double share = face_share(wide(c_in, passage_.s_in), wide(c_out, passage_.s_out));
+    if (!utd) return mixed(share, there(m_in, c_in), back(m_out, c_out));
+    const MetCosines least{std::min(m_in.te, m_out.te), std::min(m_in.tm, m_out.tm)};
+    const double c = std::min(c_in, c_out);
+    return mixed(share, there(least, c), back(least, c));
+  }
+
+  const Plan& plan_;
+  const ImageRule rule_;
+  const Wedge& wedge_;
+  const EdgePassage& passage_;
+  const std::size_t band_;
+  const Vec3 &k_in_, &k_out_;
+  const FaceWay &came_, &leaves_;
   Dyadic face0_{}, facen_{};
 };
 
@@ -308,7 +345,12 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
           terms.term[t].slope = std::min(terms.term[t].slope, 4 * terms.term[t].plain);
       const ConeFrame in(wedge.direction, k[i]), out(wedge.direction, k[i + 1]);
       std::optional<EdgeFaces> at_faces;
-      if (faces) at_faces.emplace(plan, wedge, passage, band, k[i], k[i + 1], came, leaves);
+      std::optional<EdgeFaces> at_black_faces;
+      const auto meet_faces = [&](ImageRule rule, std::optional<EdgeFaces>& at) {
+        if (faces) at.emplace(plan, rule, wedge, passage, band, k[i], k[i + 1], came, leaves);
+      };
+      if (terms.has(false)) meet_faces(ImageRule::utd, at_faces);
+      if (terms.has(true)) meet_faces(ImageRule::black, at_black_faces);
       const auto in_frame = [&](const ComplexVec3& w) -> std::array<Complex, 2> {
         return radio ? std::array<Complex, 2>{dot(w, in.beta), dot(w, in.phi)} : std::array<Complex, 2>{w.x, 0.0};
       };
@@ -372,7 +414,7 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
         // The first of two edges leaves its weights to the second.
         const Complex there = ends_couple || (edges == 2 && first) ? Complex(1) : weights[t];
         const auto leave = [&](const Pair& w, const Pair& back, Pair& to) {
-          const auto seen = faces ? at_faces->seen_at(term.boundary, w) : w;
+          const auto seen = faces ? (term.black ? at_black_faces : at_faces)->seen_at(term.boundary, w) : w;
           for (std::size_t p = 0; p < 2; ++p) to[p] += there * (seen[p] + back[p]);
         };
         const bool slopes = !first && !last;

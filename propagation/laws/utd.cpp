@@ -117,6 +117,11 @@ void utd_coefficients(double exterior_angle, std::span<const double> phi_in, std
   }
 }
 
+double image_cosine(double exterior_angle, double azimuth, double sin_beta) {
+  const double nearer = std::max(0.0, std::min(azimuth, exterior_angle - azimuth));
+  return nearer < 0.5 * pi ? sin_beta * std::sin(nearer) : sin_beta;
+}
+
 double face_share(double in, double out) {
   const double whole = in * in + out * out;
   return whole > 0 ? out * out / whole : 0.5;
@@ -124,15 +129,12 @@ double face_share(double in, double out) {
 
 FaceReflections reciprocal_face_reflections(const WedgeFace& face_0, const WedgeFace& face_n, double exterior_angle,
                                             double phi_in, double phi, double sin_beta, double wavenumber) {
-  const auto mixed = [&](const WedgeFace& face, double angle_in, double angle_out) {
-    const double in = std::min(1.0, sin_beta * std::abs(std::sin(angle_in)));
-    const double out = std::min(1.0, sin_beta * std::abs(std::sin(angle_out)));
-    const double share = face_share(in, out);
-    const auto a = slab_reflection(face.permittivity, face.thickness, wavenumber, in),
-               b = slab_reflection(face.permittivity, face.thickness, wavenumber, out);
-    return ReflectionCoefficients{share * a.te + (1 - share) * b.te, share * a.tm + (1 - share) * b.tm};
+  const double cosine =
+      std::min({1.0, image_cosine(exterior_angle, phi_in, sin_beta), image_cosine(exterior_angle, phi, sin_beta)});
+  const auto at = [&](const WedgeFace& face) {
+    return slab_reflection(face.permittivity, face.thickness, wavenumber, cosine);
   };
-  return {mixed(face_0, phi_in, phi), mixed(face_n, exterior_angle - phi_in, exterior_angle - phi)};
+  return {at(face_0), at(face_n)};
 }
 
 WedgeTotal utd_plane_wave(double exterior_angle, double k_rho, double phi_in, double phi, double half_turn,
