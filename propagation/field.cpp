@@ -138,14 +138,28 @@ FaceWay way_along_face(const Scene& scene, const PathGeometry& geometry, std::si
   return way;
 }
 
-/// The normal of a face turned about the edge until a wave of direction k meets it at the cosine c, on the same side.
-Vec3 turned_normal(const Vec3& edge, const Vec3& k, const Vec3& normal, double c) {
+/// By how much an image is turned from a right angle towards its own face (−: towards the other), for a way of that
+/// azimuth from its own face: ±(π/2 − image_angle).
+double image_turn(double exterior_angle, double azimuth) {
+  const double turn = 0.5 * pi - image_angle(exterior_angle, azimuth);
+  return azimuth <= exterior_angle - azimuth ? turn : -turn;
+}
+
+/// The turn of a way by which the image goes where the `other` way is nearer to a face: that of the mirror's way, or,
+/// as both turn to one side, between that and its own.
+double turn_with(double turn, double other) {
+  if (std::abs(turn) >= std::abs(other)) return turn;
+  return turn * other > 0 ? 2 * turn - other : -other;
+}
+
+/// Normal of the mirror whose image a wave of direction k to an edge has at that turn. `side` 1: the face at azimuth 0,
+/// −1: the other.
+Vec3 turned_normal(const Vec3& edge, const Vec3& k, const Vec3& normal, double side, double turn) {
   const Vec3 across = k - dot(k, edge) * edge;
   const double sine = norm(across);
   if (sine < 1e-9) return normal;
   const Vec3 u = across / sine, v = cross(edge, u);
-  const double cosine = std::min(c / sine, 1.0), rest = std::sqrt((1 - cosine) * (1 + cosine));
-  return -cosine * u + (dot(normal, v) < 0 ? -rest : rest) * v;
+  return -std::cos(turn) * u - side * std::sin(turn) * v;
 }
 
 /// Whose terms the images belong to.
@@ -166,8 +180,8 @@ class EdgeFaces {
         k_out_(k_out),
         came_(came),
         leaves_(leaves) {
-    face0_ = dyadic(wedge.patch0, wedge.material0, wedge.normal0);
-    if (!wedge.free_rim) facen_ = dyadic(wedge.patchn, wedge.materialn, wedge.normaln());
+    face0_ = dyadic(wedge.patch0, wedge.material0, wedge.normal0, 1);
+    if (!wedge.free_rim) facen_ = dyadic(wedge.patchn, wedge.materialn, wedge.normaln(), -1);
   }
 
   /// A wave {β̂, φ̂} (sound: {pressure, 0}) as the term of a boundary has it: itself or its image.
@@ -178,33 +192,35 @@ class EdgeFaces {
   }
 
  private:
-  Dyadic dyadic(std::uint32_t patch, std::uint32_t material, const Vec3& normal) const {
+  /// `side` 1: face 0, −1: face n.
+  Dyadic dyadic(std::uint32_t patch, std::uint32_t material, const Vec3& normal, double side) const {
     if (plan_.request.kind != WaveKind::radio) return {face_reflection(plan_, material, band_, 1).te, 0, 0, 0};
     const bool utd = rule_ == ImageRule::utd;
     const auto met = [&](double cosine, double way) { return met_cosines(plan_, material, band_, cosine, way); };
-    const auto cosine = [&](const Vec3& k, double azimuth) {
-      return utd ? image_cosine(wedge_.exterior_angle, azimuth, passage_.sin_beta) : std::abs(dot(k, normal));
+    const auto turn = [&](double azimuth) {
+      return image_turn(wedge_.exterior_angle, side > 0 ? azimuth : wedge_.exterior_angle - azimuth);
     };
-    const double c_in = cosine(k_in_, passage_.phi_in), c_out = cosine(k_out_, passage_.phi_out);
-    const auto there = [&](const MetCosines& m, double c) {
+    const double turn_in = turn(passage_.phi_in), turn_out = turn(passage_.phi_out);
+    const double c_in = utd ? passage_.sin_beta * std::cos(turn_in) : std::abs(dot(k_in_, normal));
+    const double c_out = utd ? passage_.sin_beta * std::cos(turn_out) : std::abs(dot(k_out_, normal));
+    const auto there = [&](const MetCosines& m, double x) {
       return image_dyadic(face_reflection(plan_, material, band_, m), wedge_.direction, k_in_,
-                          utd ? turned_normal(wedge_.direction, k_in_, normal, c) : normal);
+                          utd ? turned_normal(wedge_.direction, k_in_, normal, side, x) : normal);
     };
-    const auto back = [&](const MetCosines& m, double c) {
+    const auto back = [&](const MetCosines& m, double x) {
       return reversed(image_dyadic(face_reflection(plan_, material, band_, m), wedge_.direction, -k_out_,
-                                   utd ? turned_normal(wedge_.direction, -k_out_, normal, c) : normal));
+                                   utd ? turned_normal(wedge_.direction, -k_out_, normal, side, x) : normal));
     };
-    if (patch == came_.patch && patch != leaves_.patch) return there(met(c_in, came_.length), c_in);
-    if (patch == leaves_.patch && patch != came_.patch) return back(met(c_out, leaves_.length), c_out);
-    MetCosines m_in = met(c_in, came_.patch != no_index ? came_.length : passage_.s_in);
-    MetCosines m_out = met(c_out, leaves_.patch != no_index ? leaves_.length : passage_.s_out);
+    if (patch == came_.patch && patch != leaves_.patch) return there(met(c_in, came_.length), turn_in);
+    if (patch == leaves_.patch && patch != came_.patch) return back(met(c_out, leaves_.length), turn_out);
+    const MetCosines m_in = met(c_in, came_.patch != no_index ? came_.length : passage_.s_in);
+    const MetCosines m_out = met(c_out, leaves_.patch != no_index ? leaves_.length : passage_.s_out);
     // Each way has a width, 1/√(ks): two ways along the face share by that, not by the rounding of their angles.
     const auto wide = [&](double c, double way) { return std::sqrt(c * c + 1 / (plan_.wavenumber[band_] * way)); };
     const double share = face_share(wide(c_in, passage_.s_in), wide(c_out, passage_.s_out));
-    if (!utd) return mixed(share, there(m_in, c_in), back(m_out, c_out));
+    if (!utd) return mixed(share, there(m_in, turn_in), back(m_out, turn_out));
     const MetCosines least{std::min(m_in.te, m_out.te), std::min(m_in.tm, m_out.tm)};
-    const double c = std::min(c_in, c_out);
-    return mixed(share, there(least, c), back(least, c));
+    return mixed(share, there(least, turn_with(turn_in, turn_out)), back(least, turn_with(turn_out, turn_in)));
   }
 
   const Plan& plan_;

@@ -117,9 +117,8 @@ void utd_coefficients(double exterior_angle, std::span<const double> phi_in, std
   }
 }
 
-double image_cosine(double exterior_angle, double azimuth, double sin_beta) {
-  const double nearer = std::max(0.0, std::min(azimuth, exterior_angle - azimuth));
-  return nearer < 0.5 * pi ? sin_beta * std::sin(nearer) : sin_beta;
+double image_angle(double exterior_angle, double azimuth) {
+  return std::clamp(std::min(azimuth, exterior_angle - azimuth), 0.0, 0.5 * pi);
 }
 
 double face_share(double in, double out) {
@@ -129,8 +128,8 @@ double face_share(double in, double out) {
 
 FaceReflections reciprocal_face_reflections(const WedgeFace& face_0, const WedgeFace& face_n, double exterior_angle,
                                             double phi_in, double phi, double sin_beta, double wavenumber) {
-  const double cosine =
-      std::min({1.0, image_cosine(exterior_angle, phi_in, sin_beta), image_cosine(exterior_angle, phi, sin_beta)});
+  const double angle = std::min(image_angle(exterior_angle, phi_in), image_angle(exterior_angle, phi));
+  const double cosine = std::min(1.0, sin_beta * std::sin(angle));
   const auto at = [&](const WedgeFace& face) {
     return slab_reflection(face.permittivity, face.thickness, wavenumber, cosine);
   };

@@ -186,12 +186,12 @@ struct Bound {
   double median, decile;
 };
 constexpr Bound bounds[] = {
-    {1.5, Polarised::te, Place::shadow, 1.4, 6.5},    {1.5, Polarised::te, Place::near_face, 2.1, 23.5},
-    {1.5, Polarised::te, Place::elsewhere, 1.4, 7},   {1.5, Polarised::tm, Place::shadow, 1.6, 6},
-    {1.5, Polarised::tm, Place::near_face, 2.4, 9.5}, {1.5, Polarised::tm, Place::elsewhere, 1.5, 12},
-    {2, Polarised::te, Place::shadow, 0.2, 2.6},      {2, Polarised::te, Place::near_face, 2.6, 14.5},
-    {2, Polarised::te, Place::elsewhere, 1.7, 5.5},   {2, Polarised::tm, Place::shadow, 0.2, 1.4},
-    {2, Polarised::tm, Place::near_face, 1.1, 5.5},   {2, Polarised::tm, Place::elsewhere, 1.9, 19},
+    {1.5, Polarised::te, Place::shadow, 0.3, 2.8},    {1.5, Polarised::te, Place::near_face, 1.8, 11.5},
+    {1.5, Polarised::te, Place::elsewhere, 0.6, 6},   {1.5, Polarised::tm, Place::shadow, 0.3, 2.6},
+    {1.5, Polarised::tm, Place::near_face, 0.7, 3.7}, {1.5, Polarised::tm, Place::elsewhere, 0.6, 1.8},
+    {2, Polarised::te, Place::shadow, 0.3, 2},        {2, Polarised::te, Place::near_face, 2.1, 12.5},
+    {2, Polarised::te, Place::elsewhere, 1, 4.5},     {2, Polarised::tm, Place::shadow, 0.1, 1.1},
+    {2, Polarised::tm, Place::near_face, 0.7, 3.6},   {2, Polarised::tm, Place::elsewhere, 0.9, 5.5},
 };
 
 }  // namespace
@@ -208,8 +208,8 @@ Cases impedance_wedge_cases() {
                        "of level|",
                        place_words[int(place)], median ? "median" : "ninth decile"),
            "exact diffraction coefficient of impedance faces (Maliuzhinets)", "dB", median ? middle : decile,
-           "as measured: coefficients in place of -1 and 1 are a heuristic, in which the image in one face of a wedge "
-           "does not vanish on the other; the admittance's own dependence on the angle costs below 0.3 dB",
+           "as measured: coefficients in place of -1 and 1 are a heuristic; the admittance's own dependence on the "
+           "angle costs below 0.3 dB",
            0, [n = n, polarised = polarised, place = place, median] {
              return error_of(n, polarised, place, median ? 0.5 : 0.9);
            }});
