@@ -11,6 +11,7 @@
 
 #include "core/blocks.h"
 #include "core/constants.h"
+#include "propagation/bounded_waves.h"
 #include "propagation/composite.h"
 #include "propagation/connect.h"
 #include "propagation/fermat.h"
@@ -201,10 +202,14 @@ std::uint64_t connect_receivers(const Scene& scene, const Tracer& tracer, const 
                                 shadow_rays, stop);
       add_arrivals(scene, tracer, plan, source, receiver.position, around, arrivals, shadow_rays, stop);
     }
+    const SequenceTable bounded = bounded_waves(scene, plan, arrivals, [&](SequenceHash name) {
+      return sequences.find(name) != SequenceTable::no_sequence || around.find(name) != SequenceTable::no_sequence;
+    });
+    add_arrivals(scene, tracer, plan, source, receiver.position, bounded, arrivals, shadow_rays, stop);
     if (stop && *stop) break;
     settle_ties(scene, plan, tie_hair(tracer.surface_gap()), arrivals, [&](SequenceHash name, Arrival& arrival) {
-      return find_path(scene, plan, source, receiver.position, std::array{&sequences, &std::as_const(around)}, name,
-                       arrival);
+      return find_path(scene, plan, source, receiver.position, std::array{&sequences, &std::as_const(around), &bounded},
+                       name, arrival);
     });
     object_fields(scene, plan, source, arrivals);
     add_transmitter(scene, plan, transmitter, receiver, arrivals, profiles[r]);
