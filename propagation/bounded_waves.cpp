@@ -78,7 +78,7 @@ void add_bounded_waves(const Scene& scene, const Tracer& tracer, const Plan& pla
   /// A wave asked for in one cell.
   struct Wanted {
     Pair pair;
-    int missed = 0;  ///< points at which it did not arrive
+    int blocked = 0;  ///< points at which something stood in its way
   };
   struct Found {
     SequenceTable sequences;
@@ -103,13 +103,14 @@ void add_bounded_waves(const Scene& scene, const Tracer& tracer, const Plan& pla
           std::find_if(waves.begin(), waves.end(), [&](const Wanted& w) { return w.pair.sequence == sequence; });
       if (wave == waves.end()) wave = waves.insert(waves.end(), {{cell, sequence, 0, pair.passes, 0, 0, true}});
       const std::uint64_t bit = std::uint64_t(1) << point;
-      if ((wave->pair.dense & bit) != 0 || (wave->pair.dense == 0 && wave->missed == 2)) return;
+      if ((wave->pair.dense & bit) != 0 || (wave->pair.dense == 0 && wave->blocked == 2)) return;
       UnfoldedSequence unfolded(scene, source, bounded, &plan.small_objects);
-      if (unfolded.solve(grid.layout.centre(cell) + grid.dense_of(cell)[point].offset, wavelength, bounded_geometry) &&
-          connected(scene, tracer, bounded, bounded_geometry, here.shadow_rays))
+      const Vec3 place = grid.layout.centre(cell) + grid.dense_of(cell)[point].offset;
+      if (!unfolded.solve(place, wavelength, bounded_geometry)) return;
+      if (connected(scene, tracer, bounded, bounded_geometry, here.shadow_rays))
         wave->pair.dense |= bit;
       else
-        ++wave->missed;
+        ++wave->blocked;
     };
     for (const Pair& pair : pairs) {
       if (!pair.refined || !(pair.power > strong_in_a_cell * grown.known[cell])) continue;
