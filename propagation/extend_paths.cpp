@@ -10,6 +10,7 @@
 #include "propagation/fermat.h"
 #include "propagation/field.h"
 #include "propagation/near_edges.h"
+#include "propagation/patch_rims.h"
 
 namespace grimaldi {
 namespace {
@@ -41,34 +42,36 @@ Parent parent_of(const Scene& scene, const Plan& plan, std::span<const Interacti
 class Extender {
  public:
   Extender(const Scene& scene, const Tracer& tracer, const Plan& plan, const EndView& from, const EndView& to,
-           std::span<const SequenceTable* const> known, const Parent& parent, Candidates& out)
+           std::span<const SequenceTable* const> known, const PatchRims& rims, const Parent& parent, Candidates& out)
       : scene_(scene),
         from_(from),
         to_(to),
         proposer_(scene, plan, from, to, known),
+        rims_(rims),
         parent_(parent),
         gap_(tracer.surface_gap()),
         out_(out) {
     const int size = static_cast<int>(parent.interactions.size());
     const int edges = static_cast<int>(count_edges(parent.interactions));
     room_ = plan.request.depth - size;
-    room_for_edges_ = std::min(room_, most_edges(plan.request) - edges);
-    room_for_faces_ = plan.request.reflection ? std::min(room_, plan.request.max_reflections - (size - edges)) : 0;
+    edges_left_ = most_edges(plan.request) - edges;
+    faces_left_ = plan.request.reflection ? plan.request.max_reflections - (size - edges) : 0;
   }
 
   void extend() const {
-    const std::size_t edges = parent_.turns.size() - 2;
-    if (edges == 0 || room_ <= 0) return;
-    // Both ends have found what is shorter (add_from_both_ends).
-    if (parent_.interactions.size() > 1) {
-      mirrors_at(true);
-      mirrors_at(false);
-      edges_at(true);
-      edges_at(false);
-    }
-    if (room_for_faces_ <= 0) return;
+    const std::size_t edges = parent_.turns.size() - 2, size = parent_.interactions.size();
+    if (edges == 0) return;
+    // What is shorter is found from both ends (add_from_both_ends).
+    if (size > 2) exchange();
+    if (room_ <= 0) return;
+    if (size > 1)
+      for (const bool receiver : {true, false}) {
+        if (faces_left_ > 0) mirrors_at(receiver);
+        if (edges_left_ > 0) edges_at(receiver);
+      }
+    if (faces_left_ <= 0) return;
     for (std::size_t turn = 1; turn < edges; ++turn) faces_between(turn);
-    if (room_ > 1 && room_for_edges_ > 0)
+    if (room_ > 1 && edges_left_ > 0)
       for (std::size_t turn = 1; turn <= edges; ++turn) edge_and_back(turn);
   }
 
@@ -109,7 +112,7 @@ class Extender {
     const Vec3 origin = receiver ? image_before(turn) : image_behind(turn);
     std::array<Interaction, max_depth> held;
     for (const EndView::Mirror& mirror : (receiver ? to_ : from_).mirrors()) {
-      if (static_cast<int>(mirror.patches.size()) > room_for_faces_) continue;
+      if (static_cast<int>(mirror.patches.size()) > std::min(room_, faces_left_)) continue;
       const Patch& last = scene_.patches.patches[mirror.patches.back()];
       if (!crosses_box(last, mirror.image, passed(turn, origin, mirror.image))) continue;
       const auto end = receiver ? std::reverse_copy(mirror.patches.begin(), mirror.patches.end(), held.begin())
@@ -120,7 +123,6 @@ class Extender {
 
   /// The edges in view of an end.
   void edges_at(bool receiver) const {
-    if (room_for_edges_ <= 0) return;
     const std::size_t position = receiver ? parent_.interactions.size() : 0;
     const Interaction next = receiver ? parent_.interactions.back() : parent_.interactions.front();
     for (const EndView::Edge& edge : (receiver ? to_ : from_).edges()) {
@@ -149,7 +151,7 @@ class Extender {
         const Vec3 end = i == faces.size() ? passed(turn + 1, own_image, behind) : to[i];
         if (crosses_box(patch, image, start) || crosses_box(patch, own_image, end))
           propose_with(parent_.turns[turn] + i, std::array<Interaction, 1>{p});
-        if (i > 0 && room_for_faces_ > 1 && crosses_box(patch, mirrored(to[i - 1], patch), from[i]))
+        if (i > 0 && std::min(room_, faces_left_) > 1 && crosses_box(patch, mirrored(to[i - 1], patch), from[i]))
           propose_with(parent_.turns[turn] + i, std::array<Interaction, 2>{p, faces[i - 1]});
       }
     }
@@ -172,6 +174,27 @@ class Extender {
     }
   }
 
+  /// A face in place of an edge that bounds it, and an edge in place of its face.
+  void exchange() const {
+    std::vector<Interaction> child = parent_.interactions;
+    for (Interaction& here : child) {
+      const Interaction own = here;
+      if (is_edge(own) && faces_left_ > 0) {
+        const Wedge& edge = scene_.wedges.wedges[index_of(own)];
+        for (const std::uint32_t patch : {edge.patch0, edge.patchn}) {
+          here = patch;
+          proposer_.propose(child, out_);
+        }
+      } else if (!is_edge(own) && edges_left_ > 0) {
+        for (const std::uint32_t rim : rims_.of(own)) {
+          here = edge_interaction(rim);
+          proposer_.propose(child, out_);
+        }
+      }
+      here = own;
+    }
+  }
+
   /// The parent with more interactions at a place.
   void propose_with(std::size_t position, std::span<const Interaction> added) const {
     std::array<Interaction, max_depth> held;
@@ -185,10 +208,11 @@ class Extender {
   const Scene& scene_;
   const EndView &from_, &to_;
   const Proposer proposer_;
+  const PatchRims& rims_;
   const Parent& parent_;
   const double gap_;
   Candidates& out_;
-  int room_, room_for_edges_, room_for_faces_;
+  int room_, edges_left_, faces_left_;
 };
 
 /// The parents of largest bound, that first, without those below `least`.
@@ -211,6 +235,7 @@ SequenceTable extend_paths(const Scene& scene, const Tracer& tracer, const Plan&
   std::vector<const SequenceTable*> tables(known.begin(), known.end());
   tables.push_back(&longer);
   const Vec3 &source = from_transmitter.eye(), &point = from_receiver.eye();
+  const PatchRims rims(scene);
   double power = 0;
   std::vector<Parent> parents;
   for (const Arrival& arrival : arrivals) {
@@ -223,7 +248,7 @@ SequenceTable extend_paths(const Scene& scene, const Tracer& tracer, const Plan&
     for_each_block(
         parents.size(), plan.request.threads,
         [&](std::size_t number, unsigned) {
-          Extender(scene, tracer, plan, from_transmitter, from_receiver, tables, parents[number], blocks[number])
+          Extender(scene, tracer, plan, from_transmitter, from_receiver, tables, rims, parents[number], blocks[number])
               .extend();
         },
         stop);
