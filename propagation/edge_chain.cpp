@@ -148,6 +148,7 @@ EdgeTerms edge_terms(DiffractionModel model, bool faces, const Wedge& wedge, con
   const double phase = wavenumber * distance * passage.sin_beta * passage.sin_beta;
   const double utd = utd_share(model, wedge.length, passage, 2 * pi / wavenumber);
   double share = utd;
+  bool black = false;
   const auto add = [&](const WedgeFactors& factors, bool dark, double lit_out, double lit_in, Boundary boundary) {
     terms.term[terms.count++] = {make_edge_wave(factors.argument),
                                  dark ? 1.0 : -1.0,
@@ -155,7 +156,8 @@ EdgeTerms edge_terms(DiffractionModel model, bool faces, const Wedge& wedge, con
                                  share * factors.slope,
                                  lit_out,
                                  lit_in,
-                                 boundary};
+                                 boundary,
+                                 black};
   };
   if (utd > 0) {
     const double n = wedge.exterior_angle / pi;
@@ -169,6 +171,7 @@ EdgeTerms edge_terms(DiffractionModel model, bool faces, const Wedge& wedge, con
   }
   if (utd == 1) return terms;
   share = 1 - utd;
+  black = true;
   const auto add_black = [&](Boundary boundary, double lit_out, double lit_in) {
     const double epsilon = beyond_boundary(wedge, passage, boundary);
     const double half = 0.5 * std::abs(epsilon);

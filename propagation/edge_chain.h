@@ -1,6 +1,7 @@
 #pragma once
 // The edges of one path as a chain: how the wave spreads over them, which terms each has and how neighbours couple.
 
+#include <algorithm>
 #include <array>
 #include <complex>
 #include <cstddef>
@@ -58,6 +59,7 @@ struct EdgeTerm {
   double lit_out;       ///< ±1: the azimuth φ of the way on grows towards the lit side, or not
   double lit_in;        ///< the same for φ' of the way here
   Boundary boundary;
+  bool black;  ///< of a black edge (`fsd`), not of `utd`
   std::complex<double> value() const { return sign * plain * wave.wave; }
 };
 
@@ -67,6 +69,9 @@ inline constexpr std::size_t max_terms = 7;
 struct EdgeTerms {
   std::array<EdgeTerm, max_terms> term;
   std::size_t count = 0;
+  bool has(bool black) const {
+    return std::any_of(begin(), end(), [&](const EdgeTerm& t) { return t.black == black; });
+  }
   const EdgeTerm* begin() const { return term.data(); }
   const EdgeTerm* end() const { return term.data() + count; }
 };

@@ -14,23 +14,22 @@ ReflectionCoefficients face_reflection(const Plan& plan, std::uint32_t material,
   return {factor, factor};
 }
 
-ReflectionCoefficients reflection_along(const Plan& plan, std::uint32_t material, std::size_t band,
-                                        double cos_incidence, double way) {
-  const double width = std::min(1.0, 1 / std::sqrt(plan.wavenumber[band] * way));
-  if (plan.request.kind != WaveKind::radio || cos_incidence >= width)
-    return face_reflection(plan, material, band, std::min(cos_incidence, 1.0));
+MetCosines met_cosines(const Plan& plan, std::uint32_t material, std::size_t band, double cos_incidence, double way) {
+  const double c = std::min(cos_incidence, 1.0), width = std::min(1.0, 1 / std::sqrt(plan.wavenumber[band] * way));
+  if (plan.request.kind != WaveKind::radio || c >= width) return {c, c};
   const ReflectionCoefficients r = face_reflection(plan, material, band, width);
   const auto least = [&](std::complex<double> coefficient) {
     const std::complex<double> sum = 1.0 + coefficient;
     return width / (1 + std::abs((1.0 - coefficient) / (sum == 0.0 ? 1e-300 : sum)));
   };
-  return {face_reflection(plan, material, band, std::max(cos_incidence, least(r.te))).te,
-          face_reflection(plan, material, band, std::max(cos_incidence, least(r.tm))).tm};
+  return {std::max(c, least(r.te)), std::max(c, least(r.tm))};
 }
 
-double face_share(double in, double out) {
-  const double whole = in * in + out * out;
-  return whole > 0 ? out * out / whole : 0.5;
+ReflectionCoefficients face_reflection(const Plan& plan, std::uint32_t material, std::size_t band,
+                                       const MetCosines& met) {
+  const ReflectionCoefficients r = face_reflection(plan, material, band, met.te);
+  if (met.tm == met.te) return r;
+  return {r.te, face_reflection(plan, material, band, met.tm).tm};
 }
 
 ReflectanceTable::ReflectanceTable(const Plan& plan) : values_(plan.materials.size() * (steps + 1)) {

@@ -13,21 +13,21 @@ namespace grimaldi {
 ReflectionCoefficients face_reflection(const Plan& plan, std::uint32_t material, std::size_t band,
                                        double cos_incidence);
 
-/// The same for a way of length `way` (m) along the face to or from an edge: a wave of some width, that meets the face
-/// at no less than c = c₀/(1 + |β|/c₀), c₀ = 1/√(k way), β = c₀ (1 − r)/(1 + r) the face's admittance for that
+/// Cosines at which a face is met, by the coefficient of either polarisation.
+struct MetCosines {
+  double te, tm;
+};
+
+/// The cosines for a way of length `way` (m) along the face to or from an edge: a wave of some width, that meets the
+/// face at no less than c = c₀/(1 + |β|/c₀), c₀ = 1/√(k way), β = c₀ (1 − r)/(1 + r) the face's admittance for that
 /// polarisation: a wave along metal goes on as along a perfect conductor where its numerical distance k way |β|²/2 is
 /// small, and dies along other faces where it is great. Source: Sommerfeld's attenuation function, |F| ≈ 1 and
 /// 1/(2|w|²) at either end. Sound: its faces do not depend on the angle.
-ReflectionCoefficients reflection_along(const Plan& plan, std::uint32_t material, std::size_t band,
-                                        double cos_incidence, double way);
+MetCosines met_cosines(const Plan& plan, std::uint32_t material, std::size_t band, double cos_incidence, double way);
 
-/// What an edge's image wave in a face has of the coefficient for the way to the edge, of cosine `in` to the face's
-/// normal; of that for the way from it, of cosine `out`, it has the rest. Formula: out²/(in² + out²).
-/// Source: own. The same with the ends exchanged but for the names; one half at the reflection boundary, where both
-/// coefficients are equal; and along the face the coefficient of the grazing way alone, so that the boundary condition
-/// holds there. Error against the exact wedge of impedance faces (Maliuzhinets), median in the shadow: half-plane 0.15
-/// dB, right angle 2.2 dB; the mean with equal shares 0.8 and 3.5 dB.
-double face_share(double in, double out);
+/// Coefficients at these cosines.
+ReflectionCoefficients face_reflection(const Plan& plan, std::uint32_t material, std::size_t band,
+                                       const MetCosines& met);
 
 /// Share of the power that a face reflects at the first band, mean of both polarisations, read off a table over the
 /// cosine (256 steps, linear). For the flux ledger only; |error| below 1 % of the power.

@@ -89,11 +89,9 @@ struct Dyadic {
   Complex bb, bp, pb, pp;
 };
 
-/// For a way of length `way` to the edge, in direction k.
-Dyadic image_dyadic(const Plan& plan, std::uint32_t material, std::size_t band, const Vec3& edge, const Vec3& k,
-                    double way, const Vec3& normal) {
+/// For a way to the edge in direction k, with those coefficients.
+Dyadic image_dyadic(const ReflectionCoefficients& r, const Vec3& edge, const Vec3& k, const Vec3& normal) {
   const double cosine = dot(k, normal);
-  const auto r = reflection_along(plan, material, band, std::abs(cosine), way);
   const Vec3 image = k - 2 * cosine * normal;
   Vec3 s = cross(k, normal);
   const double sine = norm(s);
@@ -140,33 +138,50 @@ FaceWay way_along_face(const Scene& scene, const PathGeometry& geometry, std::si
   return way;
 }
 
-/// The faces of one edge as its wave meets them: dyadics (sound: bb alone). Of a face's dyadics for the way there and
-/// for the way back the mean by `face_share`. Along a face that the edge before (`came`) or after (`leaves`) shares,
-/// the way between the two alone.
+/// By how much an image is turned from a right angle towards its own face (−: towards the other), for a way of that
+/// azimuth from its own face: ±(π/2 − image_angle).
+double image_turn(double exterior_angle, double azimuth) {
+  const double turn = 0.5 * pi - image_angle(exterior_angle, azimuth);
+  return azimuth <= exterior_angle - azimuth ? turn : -turn;
+}
+
+/// The turn of a way by which the image goes where the `other` way is nearer to a face: that of the mirror's way, or,
+/// as both turn to one side, between that and its own.
+double turn_with(double turn, double other) {
+  if (std::abs(turn) >= std::abs(other)) return turn;
+  return turn * other > 0 ? 2 * turn - other : -other;
+}
+
+/// Normal of the mirror whose image a wave of direction k to an edge has at that turn. `side` 1: the face at azimuth 0,
+/// −1: the other.
+Vec3 turned_normal(const Vec3& edge, const Vec3& k, const Vec3& normal, double side, double turn) {
+  const Vec3 across = k - dot(k, edge) * edge;
+  const double sine = norm(across);
+  if (sine < 1e-9) return normal;
+  const Vec3 u = across / sine, v = cross(edge, u);
+  return -std::cos(turn) * u - side * std::sin(turn) * v;
+}
+
+/// Whose terms the images belong to.
+enum class ImageRule { utd, black };
+
+/// The faces of one edge as its wave meets them: dyadics (sound: bb alone), by the rules of laws/utd.h. Along a face
+/// that the edge before (`came`) or after (`leaves`) shares, the way between the two alone.
 class EdgeFaces {
  public:
-  EdgeFaces(const Plan& plan, const Wedge& wedge, const EdgePassage& passage, std::size_t band, const Vec3& k_in,
-            const Vec3& k_out, const FaceWay& came, const FaceWay& leaves) {
-    const auto dyadic = [&](std::uint32_t patch, std::uint32_t material, const Vec3& normal) -> Dyadic {
-      if (plan.request.kind != WaveKind::radio) return {face_reflection(plan, material, band, 1).te, 0, 0, 0};
-      const auto there = [&](double way) {
-        return image_dyadic(plan, material, band, wedge.direction, k_in, way, normal);
-      };
-      const auto back = [&](double way) {
-        return reversed(image_dyadic(plan, material, band, wedge.direction, -k_out, way, normal));
-      };
-      if (patch == came.patch && patch != leaves.patch) return there(came.length);
-      if (patch == leaves.patch && patch != came.patch) return back(leaves.length);
-      // Each way has a width, 1/√(ks): two ways along the face share by that, not by the rounding of their angles.
-      const auto cosine = [&](const Vec3& k, double way) {
-        const double c = dot(k, normal);
-        return std::sqrt(c * c + 1 / (plan.wavenumber[band] * way));
-      };
-      const double share = face_share(cosine(k_in, passage.s_in), cosine(k_out, passage.s_out));
-      return mixed(share, there(passage.s_in), back(passage.s_out));
-    };
-    face0_ = dyadic(wedge.patch0, wedge.material0, wedge.normal0);
-    if (!wedge.free_rim) facen_ = dyadic(wedge.patchn, wedge.materialn, wedge.normaln());
+  EdgeFaces(const Plan& plan, ImageRule rule, const Wedge& wedge, const EdgePassage& passage, std::size_t band,
+            const Vec3& k_in, const Vec3& k_out, const FaceWay& came, const FaceWay& leaves)
+      : plan_(plan),
+        rule_(rule),
+        wedge_(wedge),
+        passage_(passage),
+        band_(band),
+        k_in_(k_in),
+        k_out_(k_out),
+        came_(came),
+        leaves_(leaves) {
+    face0_ = dyadic(wedge.patch0, wedge.material0, wedge.normal0, 1);
+    if (!wedge.free_rim) facen_ = dyadic(wedge.patchn, wedge.materialn, wedge.normaln(), -1);
   }
 
   /// A wave {β̂, φ̂} (sound: {pressure, 0}) as the term of a boundary has it: itself or its image.
@@ -177,6 +192,44 @@ class EdgeFaces {
   }
 
  private:
+  /// `side` 1: face 0, −1: face n.
+  Dyadic dyadic(std::uint32_t patch, std::uint32_t material, const Vec3& normal, double side) const {
+    if (plan_.request.kind != WaveKind::radio) return {face_reflection(plan_, material, band_, 1).te, 0, 0, 0};
+    const bool utd = rule_ == ImageRule::utd;
+    const auto met = [&](double cosine, double way) { return met_cosines(plan_, material, band_, cosine, way); };
+    const auto turn = [&](double azimuth) {
+      return image_turn(wedge_.exterior_angle, side > 0 ? azimuth : wedge_.exterior_angle - azimuth);
+    };
+    const double turn_in = turn(passage_.phi_in), turn_out = turn(passage_.phi_out);
+    const double c_in = utd ? passage_.sin_beta * std::cos(turn_in) : std::abs(dot(k_in_, normal));
+    const double c_out = utd ? passage_.sin_beta * std::cos(turn_out) : std::abs(dot(k_out_, normal));
+    const auto there = [&](const MetCosines& m, double x) {
+      return image_dyadic(face_reflection(plan_, material, band_, m), wedge_.direction, k_in_,
+                          utd ? turned_normal(wedge_.direction, k_in_, normal, side, x) : normal);
+    };
+    const auto back = [&](const MetCosines& m, double x) {
+      return reversed(image_dyadic(face_reflection(plan_, material, band_, m), wedge_.direction, -k_out_,
+                                   utd ? turned_normal(wedge_.direction, -k_out_, normal, side, x) : normal));
+    };
+    if (patch == came_.patch && patch != leaves_.patch) return there(met(c_in, came_.length), turn_in);
+    if (patch == leaves_.patch && patch != came_.patch) return back(met(c_out, leaves_.length), turn_out);
+    const MetCosines m_in = met(c_in, came_.patch != no_index ? came_.length : passage_.s_in);
+    const MetCosines m_out = met(c_out, leaves_.patch != no_index ? leaves_.length : passage_.s_out);
+    // Each way has a width, 1/√(ks): two ways along the face share by that, not by the rounding of their angles.
+    const auto wide = [&](double c, double way) { return std::sqrt(c * c + 1 / (plan_.wavenumber[band_] * way)); };
+    const double share = face_share(wide(c_in, passage_.s_in), wide(c_out, passage_.s_out));
+    if (!utd) return mixed(share, there(m_in, turn_in), back(m_out, turn_out));
+    const MetCosines least{std::min(m_in.te, m_out.te), std::min(m_in.tm, m_out.tm)};
+    return mixed(share, there(least, turn_with(turn_in, turn_out)), back(least, turn_with(turn_out, turn_in)));
+  }
+
+  const Plan& plan_;
+  const ImageRule rule_;
+  const Wedge& wedge_;
+  const EdgePassage& passage_;
+  const std::size_t band_;
+  const Vec3 &k_in_, &k_out_;
+  const FaceWay &came_, &leaves_;
   Dyadic face0_{}, facen_{};
 };
 
@@ -308,7 +361,12 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
           terms.term[t].slope = std::min(terms.term[t].slope, 4 * terms.term[t].plain);
       const ConeFrame in(wedge.direction, k[i]), out(wedge.direction, k[i + 1]);
       std::optional<EdgeFaces> at_faces;
-      if (faces) at_faces.emplace(plan, wedge, passage, band, k[i], k[i + 1], came, leaves);
+      std::optional<EdgeFaces> at_black_faces;
+      const auto meet_faces = [&](ImageRule rule, std::optional<EdgeFaces>& at) {
+        if (faces) at.emplace(plan, rule, wedge, passage, band, k[i], k[i + 1], came, leaves);
+      };
+      if (terms.has(false)) meet_faces(ImageRule::utd, at_faces);
+      if (terms.has(true)) meet_faces(ImageRule::black, at_black_faces);
       const auto in_frame = [&](const ComplexVec3& w) -> std::array<Complex, 2> {
         return radio ? std::array<Complex, 2>{dot(w, in.beta), dot(w, in.phi)} : std::array<Complex, 2>{w.x, 0.0};
       };
@@ -372,7 +430,7 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
         // The first of two edges leaves its weights to the second.
         const Complex there = ends_couple || (edges == 2 && first) ? Complex(1) : weights[t];
         const auto leave = [&](const Pair& w, const Pair& back, Pair& to) {
-          const auto seen = faces ? at_faces->seen_at(term.boundary, w) : w;
+          const auto seen = faces ? (term.black ? at_black_faces : at_faces)->seen_at(term.boundary, w) : w;
           for (std::size_t p = 0; p < 2; ++p) to[p] += there * (seen[p] + back[p]);
         };
         const bool slopes = !first && !last;

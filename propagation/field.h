@@ -25,7 +25,7 @@ namespace grimaldi {
 /// double-edge wave, faces between them or not; of three and more the couplings of neighbours, chained (`next_step`).
 /// Two edges of one face, along which the wave goes: half of the sum over all pairs, with the face's coefficient for
 /// that way at both edges: over a rigid face the wave counts once, of a soft one what is left is the coupling of the
-/// slopes. A way to or from an edge meets a face by `reflection_along`. Source: the half, Kouyoumjian & Pathak. Air:
+/// slopes. A way to or from an edge meets a face by `met_cosines`. Source: the half, Kouyoumjian & Pathak. Air:
 /// attenuation of the plan over the whole length.
 void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmitter,
                 std::span<const Interaction> interactions, const PathGeometry& geometry,

@@ -14,6 +14,7 @@
 #include "propagation/laws/edge_sampling.h"
 #include "propagation/laws/free_space_diffraction.h"
 #include "propagation/laws/published_diffraction.h"
+#include "propagation/laws/utd.h"
 #include "propagation/lit_edges.h"
 
 namespace grimaldi {

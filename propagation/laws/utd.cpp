@@ -117,17 +117,23 @@ void utd_coefficients(double exterior_angle, std::span<const double> phi_in, std
   }
 }
 
+double image_angle(double exterior_angle, double azimuth) {
+  return std::clamp(std::min(azimuth, exterior_angle - azimuth), 0.0, 0.5 * pi);
+}
+
+double face_share(double in, double out) {
+  const double whole = in * in + out * out;
+  return whole > 0 ? out * out / whole : 0.5;
+}
+
 FaceReflections reciprocal_face_reflections(const WedgeFace& face_0, const WedgeFace& face_n, double exterior_angle,
                                             double phi_in, double phi, double sin_beta, double wavenumber) {
-  const auto mean = [&](const WedgeFace& face, double one, double other) {
-    const auto at = [&](double angle) {
-      return slab_reflection(face.permittivity, face.thickness, wavenumber,
-                             std::min(1.0, sin_beta * std::abs(std::sin(angle))));
-    };
-    const ReflectionCoefficients a = at(one), b = at(other);
-    return ReflectionCoefficients{0.5 * (a.te + b.te), 0.5 * (a.tm + b.tm)};
+  const double angle = std::min(image_angle(exterior_angle, phi_in), image_angle(exterior_angle, phi));
+  const double cosine = std::min(1.0, sin_beta * std::sin(angle));
+  const auto at = [&](const WedgeFace& face) {
+    return slab_reflection(face.permittivity, face.thickness, wavenumber, cosine);
   };
-  return {mean(face_0, phi_in, phi), mean(face_n, exterior_angle - phi, exterior_angle - phi_in)};
+  return {at(face_0), at(face_n)};
 }
 
 WedgeTotal utd_plane_wave(double exterior_angle, double k_rho, double phi_in, double phi, double half_turn,

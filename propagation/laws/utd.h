@@ -83,6 +83,22 @@ void utd_coefficients(double exterior_angle, std::span<const double> phi_in, std
                       std::span<const double> sin_beta, double wavenumber, std::span<const double> distance,
                       std::span<WedgeTerms> coefficients, BoundarySide side = BoundarySide::dark);
 
+/// Angle χ at which the image wave of an edge meets a face on its way to or from the edge: the azimuth of the way from
+/// the nearer of both faces, a right angle at the most. Rule: the image in either face has the coefficient of that face
+/// at the smaller χ of the way there and the way back, at the cosine sin β sin χ. It is the same with the ends
+/// exchanged, the face's own at its reflection boundary, and along either face both images extinguish the wave of a
+/// face that does, as its boundary condition wants. Source: own. Error against the exact wedge of impedance faces
+/// (Maliuzhinets), permittivity 30, median in the shadow: right angle 0.3 dB (the mean of both coefficients 2.7,
+/// Luebbers' angles 1.2), half-plane 0.25 dB (mean 1.4) (held by the cases wedges/engine/impedance). Inputs: azimuth
+/// from either face, rad, 0 … exterior angle. Returns rad.
+double image_angle(double exterior_angle, double azimuth);
+
+/// For images of black edges: what an image has of the coefficient for the way to the edge, of cosine `in` to the
+/// face's normal; of that for the way from it, of cosine `out`, it has the rest. Formula: out²/(in² + out²).
+/// Source: own. The same with the ends exchanged but for the names; one half at the reflection boundary; and along the
+/// face the coefficient of the grazing way alone. Error as above: right angle 4.7 dB, half-plane 0.13 dB.
+double face_share(double in, double out);
+
 /// A face as a slab in air, for the reflection coefficients of its two boundaries' terms.
 struct WedgeFace {
   std::complex<double> permittivity;
@@ -93,7 +109,7 @@ struct FaceReflections {
 };
 
 /// Coefficients of the faces that leave the diffracted field the same when the ends swap, and that are the faces' own
-/// at their reflection boundaries: R₀ = ½[R(φ') + R(φ)], R_n = ½[R(nπ−φ) + R(nπ−φ')], R at cos θ = sin β |sin angle|.
+/// at their reflection boundaries: at the smaller `image_angle` of φ' and φ.
 /// Source: after Luebbers, IEEE Trans. AP 32 (1984), whose angles are not reciprocal. te goes with the soft, tm with
 /// the hard coefficient.
 FaceReflections reciprocal_face_reflections(const WedgeFace& face_0, const WedgeFace& face_n, double exterior_angle,

@@ -312,5 +312,12 @@ TEST(Utd, ManyAtOnceGiveTheSameBits) {
   }
 }
 
+TEST(Utd, SharesOfTheWaysThereAndBack) {
+  EXPECT_EQ(face_share(0.3, 0.3), 0.5);
+  EXPECT_EQ(face_share(0, 0), 0.5);
+  EXPECT_EQ(face_share(0.7, 0), 0);  // out along the face: the coefficient of that way alone
+  EXPECT_NEAR(face_share(0.2, 0.9) + face_share(0.9, 0.2), 1, 1e-15);
+}
+
 }  // namespace
 }  // namespace grimaldi

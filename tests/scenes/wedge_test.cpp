@@ -438,5 +438,38 @@ INSTANTIATE_TEST_SUITE_P(Sionna, Cities,
                          testing::Values(City{"munich/munich.xml", 120.3, 110.5, 1.0},
                                          City{"etoile/etoile.xml", 54.9, 28.9, 1.0}));
 
+/// Of the upright wedges: ends that stand, at the foot and at the top.
+struct Standing {
+  int foot = 0, top = 0;
+};
+Standing standing(const SceneDescription& description) {
+  Standing sum;
+  for (const Wedge& w : find(description).wedges.wedges) {
+    if (std::abs(w.direction.z) < 0.9) continue;
+    const bool upward = w.direction.z > 0;
+    sum.foot += upward ? w.stands_at_start : w.stands_at_end;
+    sum.top += upward ? w.stands_at_end : w.stands_at_start;
+  }
+  return sum;
+}
+
+TEST(WedgeTest, EndsStandOnTheFaceAroundThem) {
+  const auto house = box({-4, -4, 0}, {4, 4, 9}, false);
+  EXPECT_EQ(standing(scene({house})).foot, 0);
+  const Standing on_ground = standing(scene({house, solids::ground(50)}));
+  EXPECT_EQ(on_ground.foot, 4);
+  EXPECT_EQ(on_ground.top, 0);
+  // On a larger roof they stand, on one that ends beside them they do not.
+  EXPECT_EQ(standing(scene({box({-4, -4, 10}, {4, 4, 19}, false), box({-20, -20, 0}, {20, 20, 10})})).foot, 4);
+  EXPECT_EQ(standing(scene({box({-4, -4, 10}, {4, 4, 19}, false), box({-4, -20, 0}, {20, 20, 10})})).foot, 2);
+  // Not 5 cm above the ground.
+  EXPECT_EQ(standing(scene({box({-4, -4, 0.05}, {4, 4, 9}), solids::ground(50)})).foot, 0);
+  // Nor on a slope of 5 degrees.
+  const double slope = std::tan(5 * degree);
+  MeshDescription hill = solids::empty_mesh("wet_ground");
+  solids::add_quad(hill, {-50, -50, -50 * slope}, {50, -50, 50 * slope}, {50, 50, 50 * slope}, {-50, 50, -50 * slope});
+  EXPECT_EQ(standing(scene({box({-4, -4, -2}, {4, 4, 9}, false), hill})).foot, 0);
+}
+
 }  // namespace
 }  // namespace grimaldi

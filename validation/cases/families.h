@@ -23,6 +23,8 @@ Cases knife_edge_cases();
 Cases engine_wedge_cases();
 /// One edge in the engine, all round it, down to fractions of a wavelength, against the exact field.
 Cases engine_corner_cases();
+/// Wedges of finite conductivity in the engine against the exact coefficient of impedance faces.
+Cases impedance_wedge_cases();
 /// A strip, a slit and a rectangular plate in the engine against integrals and boundary elements.
 Cases screen_cases();
 /// Flat roofs, one and two behind each other, in the engine against boundary elements.

@@ -47,10 +47,13 @@ CaseResult run_case(const Case& subject) {
 const std::vector<Case>& all_cases() {
   static const std::vector<Case> cases = [] {
     std::vector<Case> list;
-    for (const auto& family :
-         {aperture_cases, validity_cases, wedge_cases, engine_wedge_cases, engine_corner_cases, knife_edge_cases,
-          double_edge_cases, screen_cases, auto_cases, roof_cases, walk_cases, reciprocity_cases, exhaustive_cases,
-          energy_cases, published_cases, material_cases, invariance_cases, extreme_kernel_cases, extreme_engine_cases})
+    for (const auto& family : {aperture_cases,       validity_cases,      wedge_cases,
+                               engine_wedge_cases,   engine_corner_cases, impedance_wedge_cases,
+                               knife_edge_cases,     double_edge_cases,   screen_cases,
+                               auto_cases,           roof_cases,          walk_cases,
+                               reciprocity_cases,    exhaustive_cases,    energy_cases,
+                               published_cases,      material_cases,      invariance_cases,
+                               extreme_kernel_cases, extreme_engine_cases})
       for (Case& one : family()) list.push_back(std::move(one));
     return list;
   }();
