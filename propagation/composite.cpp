@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/constants.h"
+#include "core/contract.h"
 
 namespace grimaldi {
 namespace {
@@ -72,7 +73,9 @@ void CompositeSum::enter(std::span<const Arrival> arrivals, Polarisation polaris
   arrivals_ = arrivals.size();
   power_.assign(plan_->bands(), 0);
   for (const Arrival& arrival : arrivals) {
-    Node& node = nodes_[node_of(arrival.hash)];
+    const std::uint32_t number = node_of(arrival.hash);
+    GRIMALDI_EXPECT(number + 1 == node_count_);  // no sequence arrives twice
+    Node& node = nodes_[number];
     node.interactions.assign(arrival.interactions.begin(), arrival.interactions.end());
     const auto first = arrival.geometry.edges.begin();
     node.edges.assign(first, first + static_cast<std::ptrdiff_t>(arrival.geometry.edge_count));

@@ -303,6 +303,14 @@ void grow(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_
     if (progress) progress(double(end) / double(found.size()));
   }
   std::sort(grown.pairs.begin(), grown.pairs.end(), comes_before);
+  // A sequence grown again, from another cell, may meet cells that it had reached.
+  auto last = grown.pairs.begin();
+  for (const Pair& pair : grown.pairs)
+    if (last != grown.pairs.begin() && !comes_before(last[-1], pair))
+      last[-1].passes |= pair.passes;
+    else
+      *last++ = pair;
+  grown.pairs.erase(last, grown.pairs.end());
 }
 
 }  // namespace grimaldi

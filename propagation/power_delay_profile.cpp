@@ -11,6 +11,7 @@
 
 #include "core/blocks.h"
 #include "core/constants.h"
+#include "propagation/bounded_waves.h"
 #include "propagation/composite.h"
 #include "propagation/connect.h"
 #include "propagation/extend_paths.h"
@@ -206,10 +207,14 @@ std::uint64_t connect_receivers(const Scene& scene, const Tracer& tracer, const 
                             std::array{&sequences, &std::as_const(around)}, shadow_rays, stop);
       add_arrivals(scene, tracer, plan, source, receiver.position, longer, arrivals, shadow_rays, stop);
     }
+    const std::array<const SequenceTable*, 3> tables = {&sequences, &around, &longer};
+    const SequenceTable bounded =
+        bounded_waves(scene, plan, arrivals, [&](SequenceHash name) { return is_in(tables, name); });
+    add_arrivals(scene, tracer, plan, source, receiver.position, bounded, arrivals, shadow_rays, stop);
     if (stop && *stop) break;
     settle_ties(scene, plan, tie_hair(tracer.surface_gap()), arrivals, [&](SequenceHash name, Arrival& arrival) {
-      return find_path(scene, plan, source, receiver.position,
-                       std::array{&sequences, &std::as_const(around), &std::as_const(longer)}, name, arrival);
+      return find_path(scene, plan, source, receiver.position, std::array{tables[0], tables[1], tables[2], &bounded},
+                       name, arrival);
     });
     object_fields(scene, plan, source, arrivals);
     add_transmitter(scene, plan, transmitter, receiver, arrivals, profiles[r]);

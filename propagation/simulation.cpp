@@ -7,6 +7,7 @@
 #include <ctime>
 
 #include "core/blocks.h"
+#include "propagation/bounded_waves.h"
 #include "propagation/coverage_grid.h"
 #include "propagation/discover.h"
 #include "propagation/effort.h"
@@ -146,6 +147,7 @@ Result run(const Scene& scene, const Tracer& tracer, const Plan& asked, const Co
       if (plan.request.coverage && !stopped()) {
         const StageClock stage(figures.grow_seconds, &figures.grow_cpu_seconds);
         refine(scene, tracer, plan, t, grid, discovered, grown, stop);
+        add_bounded_waves(scene, tracer, plan, t, grid, discovered, grown, stop);
       }
       figures.merge_seconds += discovered.merge_seconds;
       figures.view_seconds += discovered.view_seconds;
