@@ -3,15 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 
 #include "core/blocks.h"
-#include "core/constants.h"
-#include "propagation/composite.h"
-#include "propagation/connect.h"
-#include "propagation/effort.h"
+#include "propagation/candidates.h"
 #include "propagation/fermat.h"
-#include "propagation/field.h"
 #include "propagation/launcher.h"
 #include "propagation/patch_rims.h"
 
@@ -65,29 +60,6 @@ void look_at(const Scene& scene, const Tracer& tracer, const Vec3& eye, const We
   }
 }
 
-/// True if the solid of `wedge` hides it from both ends of `other`, and so from all of it.
-bool hides_from(const Wedge& wedge, const Wedge& other, double gap) {
-  for (const Vec3& end : {other.start, other.end()}) {
-    const Vec3 way = end - wedge.start;
-    if (dot(way, wedge.normal0) > -gap || dot(way, wedge.normaln()) > -gap) return false;
-  }
-  return true;
-}
-
-/// What all paths together may bring that are not asked for, as a share of the power.
-constexpr double negligible_rest = 1e-3;
-
-/// A path that may arrive: its sequence in a block's list, and what it can bring.
-struct Candidate {
-  double bound;
-  std::uint32_t first, count;
-};
-
-struct Block {
-  std::vector<Candidate> candidates;
-  std::vector<Interaction> interactions;
-};
-
 class Joiner {
  public:
   Joiner(const Scene& scene, const Tracer& tracer, const Plan& plan, const EndView& from, const EndView& to,
@@ -96,32 +68,30 @@ class Joiner {
         plan_(plan),
         from_(from),
         to_(to),
-        known_(known),
-        sequences_(sequences),
+        proposer_(scene, plan, from, to, std::array{&known, &sequences}),
         rims_(scene),
-        gap_(tracer.surface_gap()),
-        wavelength_(2 * pi / plan.wavenumber.front()) {}
+        gap_(tracer.surface_gap()) {}
 
   /// An edge in view of both.
-  void one_edge(const EndView::Edge& edge, Block& out) const {
+  void one_edge(const EndView::Edge& edge, Candidates& out) const {
     if (const EndView::Edge* other = to_.edge_of(edge.wedge)) {
       const double share = passed_at(edge.wedge, from_.eye(), to_.eye());
       if (!edge.shadow.is_dark(share) && !other->shadow.is_dark(share)) propose({}, {edge.wedge}, {}, out);
     }
   }
   /// An edge, then the mirrors of the receiver.
-  void before_mirrors(const EndView::Edge& edge, Block& out) const {
+  void before_mirrors(const EndView::Edge& edge, Candidates& out) const {
     for (const EndView::Mirror& mirror : to_.mirrors())
       if (in_mirror(edge, from_.eye(), mirror)) propose({}, {edge.wedge}, mirror.patches, out);
   }
   /// The mirrors of the transmitter, then an edge.
-  void behind_mirrors(const EndView::Edge& edge, Block& out) const {
+  void behind_mirrors(const EndView::Edge& edge, Candidates& out) const {
     for (const EndView::Mirror& mirror : from_.mirrors())
       if (in_mirror(edge, to_.eye(), mirror)) propose(mirror.patches, {edge.wedge}, {}, out);
   }
   /// Two edges of one face, then the mirrors of the receiver, whose image the first edge's own solid hides from it; or
   /// the same from the other end.
-  void over_a_face(const EndView::Edge& edge, bool from_receiver, Block& out) const {
+  void over_a_face(const EndView::Edge& edge, bool from_receiver, Candidates& out) const {
     const EndView &own = from_receiver ? to_ : from_, &other = from_receiver ? from_ : to_;
     const Wedge& wedge = scene_.wedges.wedges[edge.wedge];
     for (const EndView::Mirror& mirror : other.mirrors()) {
@@ -141,20 +111,18 @@ class Joiner {
         }
     }
   }
-  void two_edges(const EndView::Edge& first, Block& out) const {
+  void two_edges(const EndView::Edge& first, Candidates& out) const {
     const Wedge& wedge = scene_.wedges.wedges[first.wedge];
     for (const EndView::Edge& second : to_.edges()) {
       const Wedge& other = scene_.wedges.wedges[second.wedge];
       if (second.wedge == first.wedge || hides_from(wedge, other, gap_) || hides_from(other, wedge, gap_)) continue;
-      propose({}, {first.wedge, second.wedge}, {}, out, &first, &second);
+      propose({}, {first.wedge, second.wedge}, {}, out);
     }
   }
 
  private:
-  /// Where the shortest way from a to b over the line of the wedge passes it, as a share of its length from 0 to 1.
-  double passed_at(std::uint32_t number, const Vec3& a, const Vec3& b) const {
-    const Wedge& wedge = scene_.wedges.wedges[number];
-    return std::clamp(crossing(wedge.start, wedge.direction, a, b) / wedge.length, 0.0, 1.0);
+  double passed_at(std::uint32_t wedge, const Vec3& a, const Vec3& b) const {
+    return passed_share(scene_.wedges.wedges[wedge], a, b);
   }
 
   /// True if the way from `eye` over the edge to the image in the mirror meets the last of its faces, the edge in view.
@@ -168,35 +136,20 @@ class Joiner {
 
   /// Faces from the transmitter, edges, faces from the receiver on.
   void propose(std::span<const Interaction> before, std::initializer_list<std::uint32_t> wedges,
-               std::span<const Interaction> after, Block& out, const EndView::Edge* first = nullptr,
-               const EndView::Edge* second = nullptr) const {
+               std::span<const Interaction> after, Candidates& out) const {
     std::array<Interaction, max_depth> held;
     auto end = std::copy(before.begin(), before.end(), held.begin());
     for (const std::uint32_t wedge : wedges) *end++ = edge_interaction(wedge);
     end = std::reverse_copy(after.begin(), after.end(), end);
-    const std::span<const Interaction> interactions(held.begin(), end);
-    PathGeometry geometry;
-    UnfoldedSequence unfolded(scene_, from_.eye(), interactions, &plan_.small_objects);
-    if (!unfolded.solve(to_.eye(), wavelength_, geometry)) return;
-    if (first && (dark(*first, geometry.edges[0]) || dark(*second, geometry.edges[1]))) return;
-    const SequenceHash hash = hash_of(interactions);
-    if (known_.find(hash) != SequenceTable::no_sequence || sequences_.find(hash) != SequenceTable::no_sequence) return;
-    out.candidates.push_back({power_bound(scene_, plan_, interactions, geometry),
-                              static_cast<std::uint32_t>(out.interactions.size()),
-                              static_cast<std::uint32_t>(interactions.size())});
-    out.interactions.insert(out.interactions.end(), interactions.begin(), interactions.end());
-  }
-
-  bool dark(const EndView::Edge& edge, const EdgePassage& passage) const {
-    return edge.shadow.is_dark(std::clamp(passage.along / scene_.wedges.wedges[edge.wedge].length, 0.0, 1.0));
+    proposer_.propose({held.begin(), end}, out);
   }
 
   const Scene& scene_;
   const Plan& plan_;
   const EndView &from_, &to_;
-  const SequenceTable &known_, &sequences_;
+  const Proposer proposer_;
   const PatchRims rims_;
-  const double gap_, wavelength_;
+  const double gap_;
 };
 
 }  // namespace
@@ -266,7 +219,7 @@ EndView view_from(const Scene& scene, const Tracer& tracer, const Plan& plan, co
 
 std::vector<std::uint32_t> add_from_both_ends(const Scene& scene, const Tracer& tracer, const Plan& plan,
                                               std::size_t transmitter, const EndView& from_transmitter,
-                                              const EndView& from_receiver, double power, const SequenceTable& known,
+                                              const EndView& from_receiver, double& power, const SequenceTable& known,
                                               SequenceTable& sequences, std::uint64_t& shadow_rays,
                                               const std::atomic<bool>* stop) {
   const Joiner joiner(scene, tracer, plan, from_transmitter, from_receiver, known, sequences);
@@ -274,11 +227,11 @@ std::vector<std::uint32_t> add_from_both_ends(const Scene& scene, const Tracer& 
   constexpr std::size_t edges_per_block = 16;
   const std::size_t edges = std::max(first.size(), last.size());
   const bool two = plan.request.depth > 1 && most_edges(plan.request) > 1;
-  std::vector<Block> blocks((edges + edges_per_block - 1) / edges_per_block);
+  std::vector<Candidates> blocks((edges + edges_per_block - 1) / edges_per_block);
   for_each_block(
       blocks.size(), plan.request.threads,
       [&](std::size_t number, unsigned) {
-        Block& block = blocks[number];
+        Candidates& block = blocks[number];
         for (std::size_t i = number * edges_per_block; i < (number + 1) * edges_per_block; ++i) {
           if (i < first.size()) {
             joiner.one_edge(first[i], block);
@@ -293,35 +246,8 @@ std::vector<std::uint32_t> add_from_both_ends(const Scene& scene, const Tracer& 
         }
       },
       stop);
-  struct Ranked {
-    double bound;
-    std::span<const Interaction> interactions;
-  };
-  std::vector<Ranked> ranked;
-  double left = 0;
-  for (const Block& block : blocks)
-    for (const Candidate& candidate : block.candidates) {
-      ranked.push_back({candidate.bound, {block.interactions.data() + candidate.first, candidate.count}});
-      left += candidate.bound;
-    }
-  std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) { return a.bound > b.bound; });
-  const double share = std::min(negligible_rest, effort_of(plan.request).negligible_share);
-  const Transmitter& source = plan.request.transmitters[transmitter];
-  std::vector<std::array<std::complex<double>, 2>> field(plan.bands());
-  std::vector<std::uint32_t> added;
-  for (const Ranked& candidate : ranked) {
-    if (left <= share * power || (stop && *stop)) break;
-    left -= candidate.bound;
-    PathGeometry geometry;
-    UnfoldedSequence unfolded(scene, source.position, candidate.interactions, &plan.small_objects);
-    if (!unfolded.solve(from_receiver.eye(), 2 * pi / plan.wavenumber.front(), geometry) ||
-        !connected(scene, tracer, candidate.interactions, geometry, shadow_rays))
-      continue;
-    path_field(scene, plan, source, candidate.interactions, geometry, field);
-    power += received_power(field[0], Polarisation::both);
-    added.push_back(sequences.enter(hash_of(candidate.interactions), candidate.interactions));
-  }
-  return added;
+  return add_strongest(scene, tracer, plan, transmitter, from_receiver.eye(), blocks, power, sequences, shadow_rays,
+                       stop);
 }
 
 }  // namespace grimaldi

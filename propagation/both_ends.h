@@ -52,12 +52,11 @@ EndView view_from(const Scene& scene, const Tracer& tracer, const Plan& plan, co
 /// Adds to `sequences` those that neither they nor `known` have, of an edge in view of both ends, of mirrors of one end
 /// and an edge in view of the other, of an edge in view of either end, and of mirrors of one end and two edges of one
 /// face where an edge in view of the other hides the image by its own solid, and returns their numbers. All of these
-/// are solved; strongest `power_bound` first they are asked for visibility, until the bounds of all that are left come
-/// to less than 0.1 % (0.004 dB), or `Effort::negligible_share`, of the `power` that is known or was found. Exchange of
-/// the ends changes only which mirrors the beams met.
+/// are solved and asked as `add_strongest` does; `power` is what is known and grows by what is found. Exchange of the
+/// ends changes only which mirrors the beams met.
 std::vector<std::uint32_t> add_from_both_ends(const Scene& scene, const Tracer& tracer, const Plan& plan,
                                               std::size_t transmitter, const EndView& from_transmitter,
-                                              const EndView& from_receiver, double power, const SequenceTable& known,
+                                              const EndView& from_receiver, double& power, const SequenceTable& known,
                                               SequenceTable& sequences, std::uint64_t& shadow_rays,
                                               const std::atomic<bool>* stop);
 

@@ -31,9 +31,11 @@ bool passes_near(const Wedge& wedge, const Vec3& a, const Vec3& b, double straig
 
 }  // namespace
 
-void add_near_edges(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
-                    const Vec3& point, std::span<const std::uint32_t> arriving, SequenceTable& sequences,
-                    std::uint64_t& shadow_rays, const std::atomic<bool>* stop) {
+std::vector<std::uint32_t> add_near_edges(const Scene& scene, const Tracer& tracer, const Plan& plan,
+                                          std::size_t transmitter, const Vec3& point,
+                                          std::span<const std::uint32_t> arriving,
+                                          std::span<const SequenceTable* const> known, SequenceTable& sequences,
+                                          std::uint64_t& shadow_rays, const std::atomic<bool>* stop) {
   const double wavelength = 2 * pi / plan.wavenumber.front();
   const double most = wavelength * transition_end * transition_end / 4;
   const Vec3& source = plan.request.transmitters[transmitter].position;
@@ -54,7 +56,7 @@ void add_near_edges(const Scene& scene, const Tracer& tracer, const Plan& plan, 
         std::vector<Interaction> child = parent;
         child.insert(child.begin() + static_cast<std::ptrdiff_t>(leg), edge_interaction(w));
         const SequenceHash hash = hash_of(child);
-        if (sequences.find(hash) != SequenceTable::no_sequence) continue;
+        if (is_in(known, hash) || sequences.find(hash) != SequenceTable::no_sequence) continue;
         UnfoldedSequence unfolded(scene, source, child, &plan.small_objects);
         if (!unfolded.solve(point, wavelength, child_geometry) ||
             blocked_leg(scene, tracer, child, child_geometry, shadow_rays))
@@ -63,6 +65,8 @@ void add_near_edges(const Scene& scene, const Tracer& tracer, const Plan& plan, 
       }
     }
   }
+  parents.erase(parents.begin(), parents.begin() + static_cast<std::ptrdiff_t>(arriving.size()));
+  return parents;
 }
 
 std::vector<std::uint32_t> add_second_edges(const Scene& scene, const Tracer& tracer, const Plan& plan,

@@ -12,15 +12,17 @@
 
 namespace grimaldi {
 
-/// Adds to `sequences` those that pass an edge beside a free leg of a path to `point`: nothing blocks that leg, so
-/// nothing leads the search there, but the edge's wave is part of the total as long as the leg lies in its transition
-/// region. A map finds them by growing from the cells behind the boundary; a point has no such neighbours.
-/// Method: for the paths `arriving` (numbers in `sequences`, at most 64, the first count) with room for one more edge,
-/// every wedge whose detour δ from the leg has 2√(δ/λ) < 6 (where composites end) at the first band; solved and asked
-/// for visibility; what is found so is searched in its turn.
-void add_near_edges(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
-                    const Vec3& point, std::span<const std::uint32_t> arriving, SequenceTable& sequences,
-                    std::uint64_t& shadow_rays, const std::atomic<bool>* stop);
+/// Adds to `sequences` those, not among the `known`, that pass an edge beside a free leg of a path to `point`: nothing
+/// blocks that leg, so nothing leads the search there, but the edge's wave is part of the total as long as the leg lies
+/// in its transition region. A map finds them by growing from the cells behind the boundary; a point has no such
+/// neighbours. Returns their numbers. Method: for the paths `arriving` (numbers in `sequences`, at most 64, the first
+/// count) with room for one more edge, every wedge whose detour δ from the leg has 2√(δ/λ) < 6 (where composites end)
+/// at the first band; solved and asked for visibility; what is found so is searched in its turn.
+std::vector<std::uint32_t> add_near_edges(const Scene& scene, const Tracer& tracer, const Plan& plan,
+                                          std::size_t transmitter, const Vec3& point,
+                                          std::span<const std::uint32_t> arriving,
+                                          std::span<const SequenceTable* const> known, SequenceTable& sequences,
+                                          std::uint64_t& shadow_rays, const std::atomic<bool>* stop);
 
 /// Adds to `sequences` those that pass a second edge of the face along which the wave of their last edge must go to
 /// reach `point`, which its own solid hides from it: no ray says so, the wave would start inside the solid. Returns

@@ -1,6 +1,7 @@
 #include "propagation/path_search.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -38,9 +39,11 @@ void grow_and_lead_around(const Scene& scene, const Tracer& tracer, const Plan& 
 }
 
 SequenceTable search_for_point(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
-                               const EndView& from_transmitter, const Vec3& point, std::span<const Arrival> arrivals,
-                               const SequenceTable& known, std::uint64_t& shadow_rays, const std::atomic<bool>* stop) {
+                               const EndView& from_transmitter, const EndView& from_receiver,
+                               std::span<const Arrival> arrivals, const SequenceTable& known,
+                               std::uint64_t& shadow_rays, const std::atomic<bool>* stop) {
   const PlanDescription& request = plan.request;
+  const Vec3& point = from_receiver.eye();
   const Effort effort = effort_at_a_point(request);
   CoverageGrid spot;
   spot.layout.nx = spot.layout.ny = 1;
@@ -71,7 +74,6 @@ SequenceTable search_for_point(const Scene& scene, const Tracer& tracer, const P
   std::vector<std::uint32_t> around = add_second_edges(
       scene, tracer, plan, transmitter, point, effort.negligible_share * power, here.sequences, shadow_rays, stop);
   for (const Pair& pair : grown.pairs) around.push_back(pair.sequence);
-  const EndView from_receiver = view_from(scene, tracer, plan, point, shadow_rays);
   for (const std::uint32_t sequence :
        add_from_both_ends(scene, tracer, plan, transmitter, from_transmitter, from_receiver, power, known,
                           here.sequences, shadow_rays, stop))
@@ -90,7 +92,8 @@ SequenceTable search_for_point(const Scene& scene, const Tracer& tracer, const P
     if (!listed[sequence]) arriving.push_back(sequence);
     listed[sequence] = true;
   }
-  add_near_edges(scene, tracer, plan, transmitter, point, arriving, here.sequences, shadow_rays, stop);
+  add_near_edges(scene, tracer, plan, transmitter, point, arriving, std::array{&known}, here.sequences, shadow_rays,
+                 stop);
   shadow_rays += grown.shadow_rays + here.shadow_rays;
   SequenceTable found;
   for (std::size_t i = 0; i < here.sequences.size(); ++i)

@@ -28,9 +28,11 @@ void grow_and_lead_around(const Scene& scene, const Tracer& tracer, const Plan& 
 /// The sequences, beyond the known ones, that lead around what blocks those on their way to one point, where the
 /// `arrivals` are the paths by the known ones, and those over edges beside free legs (`add_near_edges`) of all these,
 /// largest `power_bound` first: a wave that nearly vanishes (along a soft face) may have a neighbour that does not.
-/// Those of what both ends see too (`add_from_both_ends`). `shadow_rays` grows by the rays asked.
+/// Those of what both ends, the point's `from_receiver` among them, see too (`add_from_both_ends`). `shadow_rays` grows
+/// by the rays asked.
 SequenceTable search_for_point(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
-                               const EndView& from_transmitter, const Vec3& point, std::span<const Arrival> arrivals,
-                               const SequenceTable& known, std::uint64_t& shadow_rays, const std::atomic<bool>* stop);
+                               const EndView& from_transmitter, const EndView& from_receiver,
+                               std::span<const Arrival> arrivals, const SequenceTable& known,
+                               std::uint64_t& shadow_rays, const std::atomic<bool>* stop);
 
 }  // namespace grimaldi

@@ -14,6 +14,7 @@
 #include "propagation/bounded_waves.h"
 #include "propagation/composite.h"
 #include "propagation/connect.h"
+#include "propagation/extend_paths.h"
 #include "propagation/fermat.h"
 #include "propagation/object_wave.h"
 #include "propagation/path_search.h"
@@ -196,19 +197,23 @@ std::uint64_t connect_receivers(const Scene& scene, const Tracer& tracer, const 
     std::vector<Arrival> arrivals;
     add_arrivals(scene, tracer, plan, source, receiver.position, sequences, arrivals, shadow_rays, stop);
     object_fields(scene, plan, source, arrivals);  // the search below asks for the power
-    SequenceTable around;
+    SequenceTable around, longer;
     if (view) {
-      around = search_for_point(scene, tracer, plan, transmitter, *view, receiver.position, arrivals, sequences,
-                                shadow_rays, stop);
+      const EndView own_view = view_from(scene, tracer, plan, receiver.position, shadow_rays);
+      around =
+          search_for_point(scene, tracer, plan, transmitter, *view, own_view, arrivals, sequences, shadow_rays, stop);
       add_arrivals(scene, tracer, plan, source, receiver.position, around, arrivals, shadow_rays, stop);
+      longer = extend_paths(scene, tracer, plan, transmitter, *view, own_view, arrivals,
+                            std::array{&sequences, &std::as_const(around)}, shadow_rays, stop);
+      add_arrivals(scene, tracer, plan, source, receiver.position, longer, arrivals, shadow_rays, stop);
     }
-    const SequenceTable bounded = bounded_waves(scene, plan, arrivals, [&](SequenceHash name) {
-      return sequences.find(name) != SequenceTable::no_sequence || around.find(name) != SequenceTable::no_sequence;
-    });
+    const std::array<const SequenceTable*, 3> tables = {&sequences, &around, &longer};
+    const SequenceTable bounded =
+        bounded_waves(scene, plan, arrivals, [&](SequenceHash name) { return is_in(tables, name); });
     add_arrivals(scene, tracer, plan, source, receiver.position, bounded, arrivals, shadow_rays, stop);
     if (stop && *stop) break;
     settle_ties(scene, plan, tie_hair(tracer.surface_gap()), arrivals, [&](SequenceHash name, Arrival& arrival) {
-      return find_path(scene, plan, source, receiver.position, std::array{&sequences, &std::as_const(around), &bounded},
+      return find_path(scene, plan, source, receiver.position, std::array{tables[0], tables[1], tables[2], &bounded},
                        name, arrival);
     });
     object_fields(scene, plan, source, arrivals);

@@ -26,6 +26,11 @@ std::size_t count_edges(std::span<const Interaction> interactions) {
   return static_cast<std::size_t>(std::count_if(interactions.begin(), interactions.end(), is_edge));
 }
 
+bool is_in(std::span<const SequenceTable* const> tables, SequenceHash hash) {
+  return std::any_of(tables.begin(), tables.end(),
+                     [&](const SequenceTable* table) { return table->find(hash) != SequenceTable::no_sequence; });
+}
+
 SequenceTable::SequenceTable() { clear(); }
 
 void SequenceTable::clear() {

@@ -69,6 +69,9 @@ class SequenceTable {
   std::vector<std::uint32_t> slots_;  ///< open addressing by hash: number + 1, 0 = free
 };
 
+/// True if one of the tables has the sequence of that name.
+bool is_in(std::span<const SequenceTable* const> tables, SequenceHash hash);
+
 std::size_t count_edges(std::span<const Interaction> interactions);
 
 }  // namespace grimaldi

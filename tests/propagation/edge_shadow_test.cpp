@@ -111,8 +111,9 @@ TEST(BothEnds, FindTheSameFromEither) {
     const EndView from = view_from(scene, tracer, plan, way == 0 ? a : b, rays);
     const EndView to = view_from(scene, tracer, plan, way == 0 ? b : a, rays);
     SequenceTable sequences;
+    double power = 0;
     for (const std::uint32_t s :
-         add_from_both_ends(scene, tracer, plan, 0, from, to, 0, SequenceTable(), sequences, rays, nullptr)) {
+         add_from_both_ends(scene, tracer, plan, 0, from, to, power, SequenceTable(), sequences, rays, nullptr)) {
       auto& one = found[way].emplace_back(sequences[s].begin(), sequences[s].end());
       if (way == 1) std::reverse(one.begin(), one.end());
     }
