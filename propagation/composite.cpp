@@ -194,6 +194,20 @@ std::uint32_t CompositeSum::root_of(std::uint32_t node) {
   return node;
 }
 
+/// Ties to a wave that does not arrive and ties no other are for nothing.
+void CompositeSum::drop_loose_ends() {
+  degree_.assign(node_count_, 0);
+  for (const Tie& tie : ties_) ++degree_[tie.a], ++degree_[tie.b];
+  for (bool more = true; more;) {
+    more = false;
+    std::erase_if(ties_, [&](const Tie& tie) {
+      const bool loose = (tie.a >= arrivals_ && degree_[tie.a] == 1) || (tie.b >= arrivals_ && degree_[tie.b] == 1);
+      if (loose) --degree_[tie.a], --degree_[tie.b], more = true;
+      return loose;
+    });
+  }
+}
+
 void CompositeSum::span_tree() {
   std::sort(ties_.begin(), ties_.end(), [&](const Tie& x, const Tie& y) {
     if (weights_[x.weights] != weights_[y.weights]) return weights_[x.weights] > weights_[y.weights];
@@ -292,6 +306,7 @@ void CompositeSum::interference(std::span<const Arrival> arrivals, Polarisation 
   enter(arrivals, polarisation);
   tie_to_composites();
   for (std::uint32_t i = 0; i < arrivals_; ++i) tie_corners(i);
+  drop_loose_ends();
   span_tree();
   for (std::size_t band = 0; band < plan_->bands(); ++band) {
     out[band] =

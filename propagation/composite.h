@@ -86,6 +86,7 @@ class CompositeSum {
   void tie_corners(std::uint32_t node);
   bool bridges(std::uint32_t node) const;
   void note(std::uint32_t other, std::uint32_t node, const Bounded& wave);
+  void drop_loose_ends();
   void span_tree();
   double at_the_point(std::span<const Arrival> arrivals, std::size_t band, Polarisation polarisation);
   double over_a_square(std::span<const Arrival> arrivals, std::size_t band, Polarisation polarisation, double extent);
@@ -99,9 +100,10 @@ class CompositeSum {
   std::unordered_map<SequenceHash, std::uint32_t> node_by_hash_;
   std::vector<Node> nodes_;  ///< the first node_count_ of them
   std::size_t node_count_ = 0, arrivals_ = 0;
-  std::vector<double> power_;        ///< per band, of all arrivals
-  std::vector<Bounded> bounded_;     ///< of one node
-  std::vector<std::uint32_t> root_;  ///< union-find
+  std::vector<double> power_;          ///< per band, of all arrivals
+  std::vector<Bounded> bounded_;       ///< of one node
+  std::vector<std::uint32_t> root_;    ///< union-find
+  std::vector<std::uint32_t> degree_;  ///< ties of each node
   struct Branch {
     std::uint32_t node, parent, weights;
   };

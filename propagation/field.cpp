@@ -138,28 +138,35 @@ FaceWay way_along_face(const Scene& scene, const PathGeometry& geometry, std::si
   return way;
 }
 
-/// By how much an image is turned from a right angle towards its own face (−: towards the other), for a way of that
-/// azimuth from its own face: ±(π/2 − image_angle).
-double image_turn(double exterior_angle, double azimuth) {
-  const double turn = 0.5 * pi - image_angle(exterior_angle, azimuth);
-  return azimuth <= exterior_angle - azimuth ? turn : -turn;
+/// By how much an image is turned from a right angle towards its own face (−: towards the other).
+struct Turn {
+  double angle, sine, cosine;
+  Turn operator-() const { return {-angle, -sine, cosine}; }
+};
+
+/// For a way of that azimuth from the face: ±(π/2 − image_angle).
+Turn image_turn(double exterior_angle, double azimuth) {
+  const double to_face = image_angle(exterior_angle, azimuth), side = azimuth <= exterior_angle - azimuth ? 1 : -1;
+  return {side * (0.5 * pi - to_face), side * std::cos(to_face), std::sin(to_face)};
 }
 
 /// The turn of a way by which the image goes where the `other` way is nearer to a face: that of the mirror's way, or,
 /// as both turn to one side, between that and its own.
-double turn_with(double turn, double other) {
-  if (std::abs(turn) >= std::abs(other)) return turn;
-  return turn * other > 0 ? 2 * turn - other : -other;
+Turn turn_with(const Turn& turn, const Turn& other) {
+  if (std::abs(turn.angle) >= std::abs(other.angle)) return turn;
+  if (turn.angle * other.angle <= 0) return -other;
+  const double angle = 2 * turn.angle - other.angle;
+  return {angle, std::sin(angle), std::cos(angle)};
 }
 
 /// Normal of the mirror whose image a wave of direction k to an edge has at that turn. `side` 1: the face at azimuth 0,
 /// −1: the other.
-Vec3 turned_normal(const Vec3& edge, const Vec3& k, const Vec3& normal, double side, double turn) {
+Vec3 turned_normal(const Vec3& edge, const Vec3& k, const Vec3& normal, double side, const Turn& turn) {
   const Vec3 across = k - dot(k, edge) * edge;
   const double sine = norm(across);
   if (sine < 1e-9) return normal;
   const Vec3 u = across / sine, v = cross(edge, u);
-  return -std::cos(turn) * u - side * std::sin(turn) * v;
+  return -turn.cosine * u - side * turn.sine * v;
 }
 
 /// Whose terms the images belong to.
@@ -180,6 +187,10 @@ class EdgeFaces {
         k_out_(k_out),
         came_(came),
         leaves_(leaves) {
+    if (rule == ImageRule::utd) {
+      turn_in_ = image_turn(wedge.exterior_angle, passage.phi_in);
+      turn_out_ = image_turn(wedge.exterior_angle, passage.phi_out);
+    }
     face0_ = dyadic(wedge.patch0, wedge.material0, wedge.normal0, 1);
     if (!wedge.free_rim) facen_ = dyadic(wedge.patchn, wedge.materialn, wedge.normaln(), -1);
   }
@@ -197,17 +208,14 @@ class EdgeFaces {
     if (plan_.request.kind != WaveKind::radio) return {face_reflection(plan_, material, band_, 1).te, 0, 0, 0};
     const bool utd = rule_ == ImageRule::utd;
     const auto met = [&](double cosine, double way) { return met_cosines(plan_, material, band_, cosine, way); };
-    const auto turn = [&](double azimuth) {
-      return image_turn(wedge_.exterior_angle, side > 0 ? azimuth : wedge_.exterior_angle - azimuth);
-    };
-    const double turn_in = turn(passage_.phi_in), turn_out = turn(passage_.phi_out);
-    const double c_in = utd ? passage_.sin_beta * std::cos(turn_in) : std::abs(dot(k_in_, normal));
-    const double c_out = utd ? passage_.sin_beta * std::cos(turn_out) : std::abs(dot(k_out_, normal));
-    const auto there = [&](const MetCosines& m, double x) {
+    const Turn turn_in = side > 0 ? turn_in_ : -turn_in_, turn_out = side > 0 ? turn_out_ : -turn_out_;
+    const double c_in = utd ? passage_.sin_beta * turn_in.cosine : std::abs(dot(k_in_, normal));
+    const double c_out = utd ? passage_.sin_beta * turn_out.cosine : std::abs(dot(k_out_, normal));
+    const auto there = [&](const MetCosines& m, const Turn& x) {
       return image_dyadic(face_reflection(plan_, material, band_, m), wedge_.direction, k_in_,
                           utd ? turned_normal(wedge_.direction, k_in_, normal, side, x) : normal);
     };
-    const auto back = [&](const MetCosines& m, double x) {
+    const auto back = [&](const MetCosines& m, const Turn& x) {
       return reversed(image_dyadic(face_reflection(plan_, material, band_, m), wedge_.direction, -k_out_,
                                    utd ? turned_normal(wedge_.direction, -k_out_, normal, side, x) : normal));
     };
@@ -230,6 +238,7 @@ class EdgeFaces {
   const std::size_t band_;
   const Vec3 &k_in_, &k_out_;
   const FaceWay &came_, &leaves_;
+  Turn turn_in_{}, turn_out_{};  ///< towards face 0
   Dyadic face0_{}, facen_{};
 };
 
