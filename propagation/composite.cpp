@@ -25,8 +25,8 @@ double fade(double x, double full) {
 constexpr double full_bridge = 1. / 300;  ///< share of the power from which a wave ties what it belongs to
 constexpr double no_bridge = 1. / 3000;   ///< and up to which it does not
 
-/// Share of the power up to which a wave adds its power alone: its cross terms would be 0.01 dB.
-constexpr double without_cross_terms = 1e-6;
+/// Share of the power up to which a wave adds its power alone: its cross terms would be 0.03 dB.
+constexpr double without_cross_terms = 1e-5;
 
 /// The fade between the two, over the logarithm.
 double bridging(double power, double whole) {

@@ -21,7 +21,7 @@ Effort effort_of_rays(const PlanDescription& request, double rays) {
     effort.dense_points = dense > effort.coarse_points + 1 ? dense : 0;
   }
   effort.strong_share = std::min(0.1, 0.02 / e);
-  effort.negligible_share = std::clamp(1e-3 / millions, 5e-5, 0.01);
+  effort.negligible_share = std::clamp(1.4e-3 / millions, 5e-5, 0.01);
   effort.detours_tried = within(std::round(40 * e), 6, 160);
   effort.detours_kept = within(std::round(20 * millions), 1, 40);
   return effort;
@@ -33,7 +33,9 @@ Effort effort_of(const PlanDescription& request) { return effort_of_rays(request
 
 Effort effort_at_a_point(const PlanDescription& request) {
   constexpr double least_rays = 1e6;
-  return effort_of_rays(request, std::max(double(request.rays), least_rays));
+  Effort effort = effort_of_rays(request, std::max(double(request.rays), least_rays));
+  effort.negligible_share = std::min(effort.negligible_share, 1e-3);
+  return effort;
 }
 
 }  // namespace grimaldi

@@ -19,7 +19,7 @@ struct Effort {
   /// Share of a cell's power from which a path is asked at the dense points: 2 %/√m, at most 10 %.
   double strong_share;
   /// Share of a cell's power from stronger sequences below which one sequence of two and more interactions with an edge
-  /// is left out of the cell (and does not grow through it): 0.1 %/m, 5e-5 to 1 %. In Etoile a street point has some
+  /// is left out of the cell (and does not grow through it): 0.14 %/m, 5e-5 to 1 %. In Etoile a street point has some
   /// 2,000 pairs of edges, of which those below −30 dB carry 0.1 dB together.
   double negligible_share;
   /// Ways around a blocked leg whose path is asked for: 40 √m, 6 to 160 (a sixth of them for a third edge and more); of
@@ -30,9 +30,9 @@ struct Effort {
 /// The effort of a run. Inputs: a valid description.
 Effort effort_of(const PlanDescription& request);
 
-/// The effort of the search for one receiver: that of 1e6 rays at least. Receivers are few, and a way that matters may
-/// not come and go with the place: with one way kept of several as good, the level steps by 2 dB around a house (case
-/// walks/around-a-house).
+/// The effort of the search for one receiver: that of 1e6 rays at least, and 0.1 % at most is left out. Receivers are
+/// few, and a way that matters may not come and go with the place: with one way kept of several as good, the level
+/// steps by 2 dB around a house (case walks/around-a-house).
 Effort effort_at_a_point(const PlanDescription& request);
 
 }  // namespace grimaldi
