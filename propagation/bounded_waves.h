@@ -17,7 +17,7 @@ namespace grimaldi {
 
 /// Calls act(interactions) for each wave whose lit side a path passes within v = 1.5 of its boundary at an edge: the
 /// path without that edge, or with a face of the edge in its place. Unless something else stands in its way that wave
-/// arrives, and the edge's is but what it lacks: of a face of half a metre, half a kilometre away, the four edges alone
+/// arrives, and the edge's is but what it lacks: of a face of half a metre, 400 m away, the four edges alone
 /// are 30 dB too strong in the face's mirror direction. Beams meet such a face by luck.
 /// Inputs: a path that arrives. v at the first band.
 void each_bounded_wave(const Scene& scene, const Plan& plan, std::span<const Interaction> interactions,
