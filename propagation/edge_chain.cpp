@@ -5,18 +5,13 @@
 
 #include "core/constants.h"
 #include "propagation/edge_model.h"
+#include "propagation/laws/free_space_diffraction.h"
 #include "propagation/laws/utd.h"
 
 namespace grimaldi {
 namespace {
 
 using Complex = std::complex<double>;
-
-/// The coupling of two terms. Displacements of the apertures count towards the lit side: out along φ̂ of the first, of
-/// the source of the second against its φ̂. A lit term is that of the other side of its edge.
-double signed_coupling(const EdgeTerm& first, const EdgeTerm& second, double coupling) {
-  return -coupling * first.lit_out * second.lit_in * first.sign * second.sign;
-}
 
 /// K = C⁻¹ by Gauss and Jordan; C is positive definite. Returns det K.
 double invert(std::array<std::array<double, max_edges>, max_edges>& c, std::size_t n) {
@@ -66,6 +61,13 @@ bool is_dark(const Wedge& wedge, const EdgePassage& passage, double epsilon) {
   if (std::abs(epsilon) > rounding) return epsilon > 0;
   const auto [least, most] = std::minmax(passage.phi_in, passage.phi_out);
   return !wedge.free_rim && (least < rounding || most > wedge.exterior_angle - rounding);
+}
+
+double boundary_parameter(const Scene& scene, const EdgePassage& passage, Boundary boundary, double wavelength) {
+  // The transition region of an edge in a chain is that of the legs next to it.
+  const double effective = passage.s_in * passage.s_out / (passage.s_in + passage.s_out);
+  return fresnel_parameter(effective, wavelength, passage.sin_beta,
+                           beyond_boundary(scene.wedges.wedges[passage.wedge], passage, boundary));
 }
 
 EdgeChain edge_chain(const Scene& scene, std::span<const Interaction> interactions, const PathGeometry& geometry) {
@@ -134,7 +136,10 @@ EdgeChain edge_chain(const Scene& scene, std::span<const Interaction> interactio
     for (std::size_t j = i; j < n; ++j)
       k[i][j] = k[j][i] = before[i] * behind[j] / whole * (i == j ? 1 : std::clamp(cosine[i][j], -1.0, 1.0));
   double share = invert(k, n);
-  for (std::size_t i = 0; i < n; ++i) share *= chain.distance[i] = 1 / k[i][i];
+  for (std::size_t i = 0; i < n; ++i) {
+    share *= chain.distance[i] = 1 / k[i][i];
+    chain.width[i] = std::sqrt(std::max(1.0, before[i] * behind[i] / whole * k[i][i]));
+  }
   for (std::size_t i = 0; i + 1 < n; ++i)
     chain.coupling[i] =
         std::clamp(-k[i][i + 1] * std::sqrt(chain.distance[i] * chain.distance[i + 1]), -nearly_one, nearly_one);
@@ -193,24 +198,10 @@ Complex pair_wave(const EdgeTerm& first, const EdgeTerm& second, double coupling
          slopes * double_edge_excess(first.wave, second.wave, signed_coupling(first, second, coupling));
 }
 
-ChainStep first_step(const EdgeTerm& first, const EdgeTerm& second, double coupling) {
-  const double slopes = first.slope * second.slope * first.sign * second.sign;
-  const auto moments = double_edge_moments(first.wave, second.wave, signed_coupling(first, second, coupling));
-  const Complex mean = second.wave.slope / second.wave.wave;
-  return {first.value() * second.value() + slopes * moments.excess, 0,
-          slopes * (moments.second - mean * moments.excess), 0};
-}
-
-ChainStep next_step(const EdgeTerm& first, const EdgeTerm& second, double coupling) {
-  const double ratio = first.slope > 4 * first.plain ? 4 : first.slope / first.plain;
-  const double slopes = ratio * second.slope * second.sign;
-  const auto moments = double_edge_moments(first.wave, second.wave, signed_coupling(first, second, coupling));
-  const Complex mean1 = first.wave.slope / first.wave.wave, mean2 = second.wave.slope / second.wave.wave;
-  const Complex own = slopes / first.wave.wave,
-                beyond = slopes / (second_moment(first.wave) - mean1 * first.wave.slope);
-  return {second.value() + own * moments.excess, beyond * (moments.first - mean1 * moments.excess),
-          own * (moments.second - mean2 * moments.excess),
-          beyond * (moments.both - mean1 * moments.second - mean2 * (moments.first - mean1 * moments.excess))};
+/// Displacements of the apertures count towards the lit side: out along φ̂ of the first, of the source of the second
+/// against its φ̂. A lit term is that of the other side of its edge.
+double signed_coupling(const EdgeTerm& first, const EdgeTerm& second, double coupling) {
+  return -coupling * first.lit_out * second.lit_in * first.sign * second.sign;
 }
 
 std::uint32_t grazed_face(const Scene& scene, const EdgePassage& before, const EdgePassage& here) {

@@ -33,11 +33,16 @@ struct ConeFrame {
   ConeFrame(const Vec3& edge, const Vec3& k) : phi(normalized(cross(edge, k))), beta(cross(phi, k)) {}
 };
 
+/// Fresnel-Kirchhoff parameter of a passage at a boundary, at `wavelength` m; v ≥ 0.
+double boundary_parameter(const Scene& scene, const EdgePassage& passage, Boundary boundary, double wavelength);
+
 /// How a wave spreads over the edges of a path.
 struct EdgeChain {
   double amplitude = 0;                          ///< of the product of the edges' waves, source of unit strength, 1/m
   std::array<double, max_edges> distance{};      ///< L of each edge, m, without sin²β
   std::array<double, max_edges - 1> coupling{};  ///< w of edges i and i+1; its sign goes with φ̂ of both
+  std::array<double, max_edges> width{};  ///< of three and more: how far each displacement spreads beyond that of an
+                                          ///< edge between fixed neighbours, √(C_ii K_ii) ≥ 1
   std::array<double, 2> end_coupling{};  ///< of two edges: of the way along the first with the second's φ̂, and of φ̂ of
                                          ///< the first with the way along the second
 };
@@ -86,30 +91,8 @@ EdgeTerms edge_terms(DiffractionModel model, bool faces, const Wedge& wedge, con
 /// their slopes.
 std::complex<double> pair_wave(const EdgeTerm& first, const EdgeTerm& second, double coupling);
 
-/// A wave that has passed an edge of a chain of three and more.
-template <typename Amplitude>
-struct ChainWave {
-  Amplitude whole;
-  Amplitude slope;  ///< its moment at this edge beyond that of the edge's own wave
-};
-
-/// Factors from a wave at one edge of a chain to that at the next.
-struct ChainStep {
-  std::complex<double> whole, slope;                        ///< to the next `whole`, from either
-  std::complex<double> slope_from_whole, slope_from_slope;  ///< to the next `slope`
-};
-
-/// The first two edges of a chain of three and more, in factors of what meets the first (`whole`).
-ChainStep first_step(const EdgeTerm& first, const EdgeTerm& second, double coupling);
-
-/// From an edge that is not the first of its chain to the next. Formula: the Gaussian integral over the apertures 1, 2,
-/// 3 by powers m and n of the couplings 12 and 23 is Σ (2jw₁₂)^m/m! (2jw₂₃)ⁿ/n! I_m(q₁) I_{m+n}(q₂) I_n(q₃), I_n as in
-/// double_edge.h. At each inner edge I_{m+n} is taken as I_m I_n/I_0 + S_m S_n/S_1, S_m = I_{m+1} − I_m I_1/I_0, which
-/// is right for all m and n of which one is 0 or 1; the sums over m and n are then waves and moments of pairs of edges
-/// (`double_edge_moments`). A slope counts four times the plain factor at the most. Source: own; two steps of the
-/// elimination of the matrix I_{m+n}. Valid: the same with the ends exchanged. Error: screens in a row, all tips on one
-/// line: 0.3, 1.0, 2.2 dB too little for 3, 4, 5 of them (EdgeChain.GrazingScreensInARow).
-ChainStep next_step(const EdgeTerm& first, const EdgeTerm& second, double coupling);
+/// The coupling of two terms, with the signs of double_edge.h, from that of their edges.
+double signed_coupling(const EdgeTerm& first, const EdgeTerm& second, double coupling);
 
 /// The face that both edges bound and along which the wave goes from one to the other, or no_index. What arrives is
 /// then the wave and its image in one. The same for both directions of the way.

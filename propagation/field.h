@@ -36,7 +36,4 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
 double power_bound(const Scene& scene, const Plan& plan, std::span<const Interaction> interactions,
                    const PathGeometry& geometry);
 
-/// Fresnel-Kirchhoff parameter of a passage at a boundary, at `wavelength` m; v ≥ 0.
-double boundary_parameter(const Scene& scene, const EdgePassage& passage, Boundary boundary, double wavelength);
-
 }  // namespace grimaldi
