@@ -6,6 +6,7 @@
 
 #include "core/constants.h"
 #include "core/contract.h"
+#include "propagation/fade.h"
 
 namespace grimaldi {
 namespace {
@@ -13,14 +14,6 @@ namespace {
 constexpr double full_coherence = 3;                 ///< v up to which an edge belongs wholly to a composite
 constexpr double no_coherence = 2 * full_coherence;  ///< v from which it does not belong to it
 constexpr double full_end = 1.5;  ///< v_V up to which an edge passed beyond its end belongs wholly to a composite
-
-/// 1 up to `full`, cos² down to 0 at twice that.
-double fade(double x, double full) {
-  if (x <= full) return 1;
-  if (x >= 2 * full) return 0;
-  const double c = std::cos(0.5 * pi * (x / full - 1));
-  return c * c;
-}
 
 constexpr double full_bridge = 1. / 300;  ///< share of the power from which a wave ties what it belongs to
 constexpr double no_bridge = 1. / 3000;   ///< and up to which it does not

@@ -31,13 +31,23 @@ bool passes_near(const Wedge& wedge, const Vec3& a, const Vec3& b, double straig
 
 }  // namespace
 
+void each_near_edge(const Scene& scene, const PathGeometry& geometry, double wavelength,
+                    const std::function<void(std::size_t, std::uint32_t)>& act) {
+  const double most = wavelength * transition_end * transition_end / 4;
+  for (std::size_t leg = 0; leg + 1 < geometry.count; ++leg) {
+    const Vec3 &a = geometry.points[leg], &b = geometry.points[leg + 1];
+    const double straight = distance(a, b);
+    for (std::uint32_t w = 0; w < scene.wedges.wedges.size(); ++w)
+      if (passes_near(scene.wedges.wedges[w], a, b, straight, most)) act(leg, w);
+  }
+}
+
 std::vector<std::uint32_t> add_near_edges(const Scene& scene, const Tracer& tracer, const Plan& plan,
                                           std::size_t transmitter, const Vec3& point,
                                           std::span<const std::uint32_t> arriving,
                                           std::span<const SequenceTable* const> known, SequenceTable& sequences,
                                           std::uint64_t& shadow_rays, const std::atomic<bool>* stop) {
   const double wavelength = 2 * pi / plan.wavenumber.front();
-  const double most = wavelength * transition_end * transition_end / 4;
   const Vec3& source = plan.request.transmitters[transmitter].position;
   std::vector<std::uint32_t> parents(arriving.begin(), arriving.end());
   for (std::size_t i = 0; i < std::min(parents.size(), most_parents) && !(stop && *stop); ++i) {
@@ -48,22 +58,17 @@ std::vector<std::uint32_t> add_near_edges(const Scene& scene, const Tracer& trac
       continue;
     PathGeometry geometry, child_geometry;
     if (!UnfoldedSequence(scene, source, parent, &plan.small_objects).solve(point, wavelength, geometry)) continue;
-    for (std::size_t leg = 0; leg + 1 < geometry.count; ++leg) {
-      const Vec3 &a = geometry.points[leg], &b = geometry.points[leg + 1];
-      const double straight = distance(a, b);
-      for (std::uint32_t w = 0; w < scene.wedges.wedges.size(); ++w) {
-        if (!passes_near(scene.wedges.wedges[w], a, b, straight, most)) continue;
-        std::vector<Interaction> child = parent;
-        child.insert(child.begin() + static_cast<std::ptrdiff_t>(leg), edge_interaction(w));
-        const SequenceHash hash = hash_of(child);
-        if (is_in(known, hash) || sequences.find(hash) != SequenceTable::no_sequence) continue;
-        UnfoldedSequence unfolded(scene, source, child, &plan.small_objects);
-        if (!unfolded.solve(point, wavelength, child_geometry) ||
-            blocked_leg(scene, tracer, child, child_geometry, shadow_rays))
-          continue;
-        parents.push_back(sequences.enter(hash, child));
-      }
-    }
+    each_near_edge(scene, geometry, wavelength, [&](std::size_t leg, std::uint32_t w) {
+      std::vector<Interaction> child = parent;
+      child.insert(child.begin() + static_cast<std::ptrdiff_t>(leg), edge_interaction(w));
+      const SequenceHash hash = hash_of(child);
+      if (is_in(known, hash) || sequences.find(hash) != SequenceTable::no_sequence) return;
+      UnfoldedSequence unfolded(scene, source, child, &plan.small_objects);
+      if (!unfolded.solve(point, wavelength, child_geometry) ||
+          blocked_leg(scene, tracer, child, child_geometry, shadow_rays))
+        return;
+      parents.push_back(sequences.enter(hash, child));
+    });
   }
   parents.erase(parents.begin(), parents.begin() + static_cast<std::ptrdiff_t>(arriving.size()));
   return parents;

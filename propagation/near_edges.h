@@ -3,21 +3,28 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
+#include "propagation/fermat.h"
 #include "propagation/plan.h"
 #include "propagation/sequence.h"
 #include "propagation/tracer.h"
 
 namespace grimaldi {
 
+/// Calls act(leg, wedge) for each wedge whose detour δ from a leg of a path has v = 2√(δ/λ) < 6: where composites end.
+/// Inputs: wavelength λ, m; the path must not change meanwhile.
+void each_near_edge(const Scene& scene, const PathGeometry& geometry, double wavelength,
+                    const std::function<void(std::size_t, std::uint32_t)>& act);
+
 /// Adds to `sequences` those, not among the `known`, that pass an edge beside a free leg of a path to `point`: nothing
 /// blocks that leg, so nothing leads the search there, but the edge's wave is part of the total as long as the leg lies
 /// in its transition region. A map finds them by growing from the cells behind the boundary; a point has no such
 /// neighbours. Returns their numbers. Method: for the paths `arriving` (numbers in `sequences`, at most 64, the first
-/// count) with room for one more edge, every wedge whose detour δ from the leg has 2√(δ/λ) < 6 (where composites end)
-/// at the first band; solved and asked for visibility; what is found so is searched in its turn.
+/// count) with room for one more edge, every near edge of each leg (`each_near_edge`) at the first band; solved and
+/// asked for visibility; what is found so is searched in its turn.
 std::vector<std::uint32_t> add_near_edges(const Scene& scene, const Tracer& tracer, const Plan& plan,
                                           std::size_t transmitter, const Vec3& point,
                                           std::span<const std::uint32_t> arriving,

@@ -14,6 +14,7 @@
 #include "propagation/bounded_waves.h"
 #include "propagation/composite.h"
 #include "propagation/connect.h"
+#include "propagation/depth_limit.h"
 #include "propagation/extend_paths.h"
 #include "propagation/fermat.h"
 #include "propagation/object_wave.h"
@@ -217,6 +218,7 @@ std::uint64_t connect_receivers(const Scene& scene, const Tracer& tracer, const 
                        name, arrival);
     });
     object_fields(scene, plan, source, arrivals);
+    end_at_depth(scene, plan, source.position, receiver.position, tie_hair(tracer.surface_gap()), arrivals);
     add_transmitter(scene, plan, transmitter, receiver, arrivals, profiles[r]);
   }
   return shadow_rays;
