@@ -36,28 +36,31 @@ double parents_of(const Scene& scene, const PathGeometry& geometry, double wavel
   return parents;
 }
 
-/// What the edge of `passage`, beside the path, leaves of it in a band.
-Complex left_by(const Scene& scene, const Plan& plan, const EdgePassage& passage, double detour, double parents,
+/// What the edge of `passage`, beside the path, leaves of it in a band if the path has that part of the edge's wave.
+Complex left_by(const Scene& scene, const Plan& plan, const EdgePassage& passage, double detour, double part,
                 double wavenumber) {
   const double wavelength = 2 * pi / wavenumber, q = std::sqrt(wavenumber * detour);
   EdgeTerm term{};
   term.wave = make_edge_wave(q);
   const EndWeights ends(scene.wedges.wedges[passage.wedge], passage, wavelength, wavenumber, plan.request.reflection);
   const double v = 2 * std::sqrt(detour / wavelength);
-  return 1.0 - fade(v, full_edge) / parents * term.wave.wave * ends.of(term) * std::polar(1.0, -q * q);
+  return 1.0 - part * fade(v, full_edge) * term.wave.wave * ends.of(term) * std::polar(1.0, -q * q);
 }
 
 }  // namespace
 
-void end_at_depth(const Scene& scene, const Plan& plan, const Vec3& source, const Vec3& point, double hair,
-                  std::vector<Arrival>& arrivals) {
-  if (most_edges(plan.request) == 0) return;
+std::vector<Complex> left_at_depth(const Scene& scene, const Plan& plan, const Vec3& source, const Vec3& point,
+                                   double hair, std::span<const Arrival> arrivals) {
+  const std::size_t bands = plan.bands();
+  std::vector<Complex> left(arrivals.size() * bands, 1.0);
+  if (most_edges(plan.request) == 0) return left;
   const double longest = 2 * pi / plan.wavenumber.front();
   double power = 0;
   for (const Arrival& arrival : arrivals) power += received_power(arrival.field[0], Polarisation::both);
   std::vector<Interaction> longer;
   PathGeometry geometry;
-  for (Arrival& arrival : arrivals) {
+  for (std::size_t a = 0; a < arrivals.size(); ++a) {
+    const Arrival& arrival = arrivals[a];
     if (!is_full(plan, arrival) || received_power(arrival.field[0], Polarisation::both) < negligible * power) continue;
     each_near_edge(scene, arrival.geometry, longest, [&](std::size_t leg, std::uint32_t wedge) {
       longer.assign(arrival.interactions.begin(), arrival.interactions.end());
@@ -70,16 +73,16 @@ void end_at_depth(const Scene& scene, const Plan& plan, const Vec3& source, cons
       const double turn = hair / passage.sin_beta * (1 / passage.s_in + 1 / passage.s_out);
       const bool dark = is_dark(beside, passage, epsilon);
       if (dark && (std::abs(epsilon) > turn || !passage.inside)) return;
+      const double onward = fade(std::abs(epsilon), 0.25 * pi);
       const double detour = std::max(0.0, geometry.length - arrival.geometry.length);
-      for (std::size_t band = 0; band < plan.bands(); ++band) {
+      for (std::size_t band = 0; band < bands; ++band) {
         const double k = plan.wavenumber[band];
-        const Complex left =
-            dark ? Complex(0)
-                 : left_by(scene, plan, passage, detour, parents_of(scene, arrival.geometry, 2 * pi / k), k);
-        for (Complex& component : arrival.field[band]) component *= left;
+        const double part = onward / parents_of(scene, arrival.geometry, 2 * pi / k);
+        left[a * bands + band] *= dark ? Complex(0) : left_by(scene, plan, passage, detour, part, k);
       }
     });
   }
+  return left;
 }
 
 }  // namespace grimaldi

@@ -140,20 +140,26 @@ PathStory story(const Scene& scene, const Plan& plan, const Transmitter& transmi
 }
 
 void add_transmitter(const Scene& scene, const Plan& plan, std::size_t transmitter, const Receiver& receiver,
-                     const std::vector<Arrival>& arrivals, ReceiverProfile& profile) {
+                     const std::vector<Arrival>& arrivals, std::span<const std::complex<double>> left_at_depth,
+                     ReceiverProfile& profile) {
   const std::size_t bands = plan.bands();
   std::vector<double> interference(bands);
   CompositeSum(scene, plan).interference(arrivals, receiver.polarisation, interference);
   for (std::size_t band = 0; band < bands; ++band) {
     const std::size_t at = transmitter * bands + band;
-    std::array<std::complex<double>, 2> sum{};
+    std::array<std::complex<double>, 2> sum{}, completed{};
     double power = 0;
-    for (const Arrival& a : arrivals) {
-      power += received_power(a.field[band], receiver.polarisation);
-      for (std::size_t p = 0; p < 2; ++p) sum[p] += a.field[band][p];
+    for (std::size_t i = 0; i < arrivals.size(); ++i) {
+      const auto& field = arrivals[i].field[band];
+      power += received_power(field, receiver.polarisation);
+      for (std::size_t p = 0; p < 2; ++p) {
+        sum[p] += field[p];
+        completed[p] += left_at_depth[i * bands + band] * field[p];
+      }
     }
     profile.total[at] = power + interference[band];
     profile.total_coherent[at] = received_power(sum, receiver.polarisation);
+    profile.total_completed[at] = received_power(completed, receiver.polarisation);
     delay_statistics(arrivals, plan, receiver.polarisation, band, profile.mean_delay[at], profile.rms_delay_spread[at]);
   }
   std::vector<std::pair<double, std::size_t>> order;
@@ -179,6 +185,7 @@ std::vector<ReceiverProfile> empty_profiles(const Plan& plan) {
     profile.position = receiver.position;
     profile.total.assign(rows, 0);
     profile.total_coherent.assign(rows, 0);
+    profile.total_completed.assign(rows, 0);
     profile.mean_delay.assign(rows, not_a_number);
     profile.rms_delay_spread.assign(rows, not_a_number);
     profile.paths.resize(plan.request.transmitters.size());
@@ -218,8 +225,9 @@ std::uint64_t connect_receivers(const Scene& scene, const Tracer& tracer, const 
                        name, arrival);
     });
     object_fields(scene, plan, source, arrivals);
-    end_at_depth(scene, plan, source.position, receiver.position, tie_hair(tracer.surface_gap()), arrivals);
-    add_transmitter(scene, plan, transmitter, receiver, arrivals, profiles[r]);
+    const std::vector<std::complex<double>> left =
+        left_at_depth(scene, plan, source.position, receiver.position, tie_hair(tracer.surface_gap()), arrivals);
+    add_transmitter(scene, plan, transmitter, receiver, arrivals, left, profiles[r]);
   }
   return shadow_rays;
 }

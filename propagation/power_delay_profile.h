@@ -15,10 +15,10 @@ std::vector<ReceiverProfile> empty_profiles(const Plan& plan);
 
 /// Adds transmitter `transmitter` to `profiles`: connects every discovered sequence to every receiver, and
 /// those that lead around what blocks them there (`search_for_point`) or extend what arrives (`extend_paths`).
-/// total = Σ|h|² + interference of composites, total_coherent = Σ over the receiver's polarisations of |Σ h|²; delay
-/// statistics weighted by power over the paths within the dynamic range below the strongest (ITU-R P.1407); paths
-/// strongest first (by power at the first band; ties by sequence). Returns the shadow rays asked. The same bits on any
-/// number of threads.
+/// total = Σ|h|² + interference of composites, total_coherent = Σ over the receiver's polarisations of |Σ h|²,
+/// total_completed the same with each h times `left_at_depth`; delay statistics weighted by power over the paths within
+/// the dynamic range below the strongest (ITU-R P.1407); paths strongest first (by power at the first band; ties by
+/// sequence). Returns the shadow rays asked. The same bits on any number of threads.
 std::uint64_t connect_receivers(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
                                 const SequenceTable& sequences, std::vector<ReceiverProfile>& profiles,
                                 const std::atomic<bool>* stop);

@@ -51,6 +51,7 @@ struct ReceiverProfile {
   std::vector<double> power;                         ///< [T][F][B]
   std::vector<double> total;                         ///< [T][F]; power sum of composites
   std::vector<double> total_coherent;                ///< [T][F]; all fields added per polarisation
+  std::vector<double> total_completed;               ///< [T][F]; the same with what lies beyond the depth estimated
   std::vector<double> mean_delay, rms_delay_spread;  ///< [T][F], s; NaN where nothing arrived
   std::vector<std::vector<PathStory>> paths;         ///< [T], strongest first, at most max_paths
 };

@@ -481,6 +481,8 @@ void write_profile(hid_t parent, const Plan& plan, const ReceiverProfile& profil
   group.variable("power", {"transmitter", "frequency", "delay"}, profile.power, {gain, "path gain in the bin"});
   group.variable("total", each, profile.total, {gain, "path gain, composites added as powers"});
   group.variable("total_coherent", each, profile.total_coherent, {gain, "path gain, all arrivals added as fields"});
+  group.variable("total_completed", each, profile.total_completed,
+                 {gain, "path gain, all arrivals added as fields, edges beyond the depth estimated"});
   group.variable("mean_delay", each, profile.mean_delay, {"s", "mean delay, weighted by power", true});
   group.variable("rms_delay_spread", each, profile.rms_delay_spread,
                  {"s", "root mean square delay spread, weighted by power", true});

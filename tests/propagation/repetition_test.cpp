@@ -31,7 +31,7 @@ class Bits {
   void add(const ReceiverProfile& profile) {
     add(profile.position);
     for (const auto* values : {&profile.delay, &profile.power, &profile.total, &profile.total_coherent,
-                               &profile.mean_delay, &profile.rms_delay_spread})
+                               &profile.total_completed, &profile.mean_delay, &profile.rms_delay_spread})
       add(*values);
     for (const auto& paths : profile.paths) {
       add(paths.size());

@@ -119,6 +119,7 @@ Case small_case(WaveKind kind = WaveKind::radio) {
   corner.power = ramp(T * F * 2, 1);
   corner.total = ramp(T * F, 20);
   corner.total_coherent = ramp(T * F, 30);
+  corner.total_completed = ramp(T * F, 35);
   corner.mean_delay = ramp(T * F, 40);
   corner.rms_delay_spread = ramp(T * F, 50);
   corner.mean_delay[5] = nan_value;
@@ -133,7 +134,7 @@ Case small_case(WaveKind kind = WaveKind::radio) {
       {{2e-7, amplitudes(200), 12, 22, 32, 42, "D:3", {{15, 16, 17}, {18, 19, 20}}, "fsd-polygon"}}};
   ReceiverProfile dark;
   dark.name = "dark.2";
-  dark.total = dark.total_coherent = std::vector<double>(T * F, 0.0);
+  dark.total = dark.total_coherent = dark.total_completed = std::vector<double>(T * F, 0.0);
   dark.mean_delay = dark.rms_delay_spread = std::vector<double>(T * F, nan_value);
   dark.paths.resize(T);
   c.result.profiles = {corner, dark};
@@ -267,6 +268,7 @@ TEST_F(ResultFile, ProfileIsReadByBothEngines) {
   holds("power", {"transmitter", "frequency", "delay"}, numbers(p.power), "1");
   holds("total", levels, numbers(p.total), "1");
   holds("total_coherent", levels, numbers(p.total_coherent), "1");
+  holds("total_completed", levels, numbers(p.total_completed), "1");
   holds("mean_delay", levels, numbers(p.mean_delay), "s");
   holds("rms_delay_spread", levels, numbers(p.rms_delay_spread), "s");
   holds("polarisation", {"polarisation"}, {"V", "H"}, "");
@@ -294,7 +296,7 @@ TEST_F(ResultFile, ProfileIsReadByBothEngines) {
   holds("path_point_count", each, {2, 3, 2, 0}, "1");
   EXPECT_EQ(v["path_point_count"]["kind"], "i");
   EXPECT_EQ(v["path_point_count"]["attributes"]["sample_dimension"], "point");
-  EXPECT_EQ(v.size(), 23u);  // those above, transmitter and frequency: nothing else lies in the group
+  EXPECT_EQ(v.size(), 24u);  // those above, transmitter and frequency: nothing else lies in the group
 }
 
 TEST_F(ResultFile, ReceiverWithoutPathsIsReadable) {
