@@ -54,8 +54,8 @@ class PairSteps {
 /// as I_m I_n/I_0 + S_m S_n/S_1, S_m = I_{m+1} − I_m I_1/I_0, which is right for all m and n of which one is 0 or 1;
 /// the sums over m and n are then waves and moments of pairs of edges (`double_edge_moments`). Source: own; two steps
 /// of the elimination of the matrix I_{m+n}. Valid: the same with the ends exchanged. Error: of a chain that `is_row`
-/// does not take 0.01 of the wave (held by ChainSteps.*); screens in a row, all tips on one line: 0.3, 1.0, 2.2 dB too
-/// little for 3, 4, 5 of them.
+/// does not take 0.01 of the wave (held by EdgeChain.MomentsSufficeBelowTheRow); screens in a row, all tips on one
+/// line: 0.3, 1.0, 2.2 dB too little for 3, 4, 5 of them.
 class MomentSteps {
  public:
   static constexpr std::size_t most = 2;
