@@ -26,21 +26,16 @@ void each_bounded_wave(const Scene& scene, const Plan& plan, std::span<const Int
                        const PathGeometry& geometry, const std::function<void(std::span<const Interaction>)>& act) {
   const double longest = 2 * pi / plan.wavenumber.front();
   std::vector<Interaction> bounded;
-  std::size_t position = 0;
-  for (std::size_t e = 0; e < geometry.edge_count; ++e, ++position) {
-    while (!is_edge(interactions[position])) ++position;
+  const EdgePlaces places(interactions);
+  for (std::size_t e = 0; e < geometry.edge_count; ++e) {
     const EdgePassage& passage = geometry.edges[e];
     const Wedge& wedge = scene.wedges.wedges[passage.wedge];
-    const std::pair<Boundary, Interaction> boundaries[3] = {
-        {Boundary::incident, no_interaction}, {Boundary::face0, wedge.patch0}, {Boundary::facen, wedge.patchn}};
-    const std::size_t kinds = !plan.request.reflection ? 1 : wedge.free_rim ? 2 : 3;
-    for (std::size_t kind = 0; kind < kinds; ++kind) {
-      const auto [boundary, face] = boundaries[kind];
+    for (const auto& [boundary, face] : BoundedWaves(wedge, plan.request.reflection)) {
       if (is_dark(wedge, passage, beyond_boundary(wedge, passage, boundary)) ||
           boundary_parameter(scene, passage, boundary, longest) > nearby)
         continue;
       bounded.assign(interactions.begin(), interactions.end());
-      const auto at = bounded.begin() + static_cast<std::ptrdiff_t>(position);
+      const auto at = bounded.begin() + static_cast<std::ptrdiff_t>(places[e]);
       if (face == no_interaction)
         bounded.erase(at);
       else

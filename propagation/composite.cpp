@@ -128,22 +128,18 @@ bool CompositeSum::bridges(std::uint32_t node) const {
 void CompositeSum::tie_upward(std::uint32_t node) {
   const double longest = 2 * pi / plan_->wavenumber.front();
   double beyond_end = 0;  // v_V
-  std::size_t position = 0;
   bounded_.clear();
-  for (std::size_t e = 0; e < nodes_[node].edges.size(); ++e, ++position) {
-    while (!is_edge(nodes_[node].interactions[position])) ++position;
+  const EdgePlaces places(nodes_[node].interactions);
+  for (std::size_t e = 0; e < nodes_[node].edges.size(); ++e) {
     const EdgePassage& passage = nodes_[node].edges[e];
     if (!passage.inside) {
       const double detour = passage.along < 0 ? passage.detour_start : passage.detour_end;
       beyond_end = std::max(beyond_end, 2 * std::sqrt(detour / longest));
     }
     const Wedge& wedge = scene_->wedges.wedges[passage.wedge];
-    const std::pair<Boundary, Interaction> bounded[3] = {
-        {Boundary::incident, no_interaction}, {Boundary::face0, wedge.patch0}, {Boundary::facen, wedge.patchn}};
-    const std::size_t kinds = !plan_->request.reflection ? 1 : wedge.free_rim ? 2 : 3;
-    for (std::size_t kind = 0; kind < kinds; ++kind) {
-      const double v = boundary_parameter(*scene_, passage, bounded[kind].first, longest);
-      if (v < no_coherence) bounded_.push_back({e, position, bounded[kind].second, v});
+    for (const auto& [boundary, face] : BoundedWaves(wedge, plan_->request.reflection)) {
+      const double v = boundary_parameter(*scene_, passage, boundary, longest);
+      if (v < no_coherence) bounded_.push_back({e, places[e], face, v});
     }
   }
   const auto nearest =
@@ -163,16 +159,15 @@ void CompositeSum::tie_to_composites() {
 void CompositeSum::tie_corners(std::uint32_t node) {
   const double longest = 2 * pi / plan_->wavenumber.front();
   const std::span<const Interaction> interactions = nodes_[node].interactions;
-  std::size_t position = 0;
-  for (std::size_t e = 0; e < nodes_[node].edges.size(); ++e, ++position) {
-    while (!is_edge(interactions[position])) ++position;
+  const EdgePlaces places(interactions);
+  for (std::size_t e = 0; e < nodes_[node].edges.size(); ++e) {
     const EdgePassage passage = nodes_[node].edges[e];
     const Wedge& wedge = scene_->wedges.wedges[passage.wedge];
     const double zone = std::sqrt(longest * passage.s_in * passage.s_out / (passage.s_in + passage.s_out));
     const auto tie_to = [&](std::uint32_t vertex, double away) {
       if (vertex == no_index || away >= 2 * zone) return;
       constexpr Interaction some_corner = 0x7fffffffu;
-      const SequenceHash rest = hash_without(interactions, position, edge_interaction(some_corner));
+      const SequenceHash rest = hash_without(interactions, places[e], edge_interaction(some_corner));
       ties_.push_back({node_of(extended(rest, vertex)), node, static_cast<std::uint32_t>(weights_.size())});
       for (const double k : plan_->wavenumber)
         weights_.push_back(fade(away / zone * std::sqrt(k / plan_->wavenumber.front()), 1));

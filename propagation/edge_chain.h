@@ -26,6 +26,45 @@ double beyond_boundary(const Wedge& wedge, const EdgePassage& passage, Boundary 
 /// here.
 bool is_dark(const Wedge& wedge, const EdgePassage& passage, double epsilon);
 
+/// A wave that an edge bounds: the path without the edge, or with one of its faces in its place.
+struct BoundedWave {
+  Boundary boundary;
+  Interaction instead;  ///< the face, or no_interaction
+};
+
+/// The waves that an edge bounds; that of the incident boundary alone where no face reflects, and one mirror for the
+/// two sides of a thin screen.
+class BoundedWaves {
+ public:
+  BoundedWaves(const Wedge& wedge, bool reflection)
+      : waves_{{{Boundary::incident, no_interaction},
+                {Boundary::face0, wedge.patch0},
+                {Boundary::facen, wedge.patchn}}},
+        count_(!reflection      ? 1
+               : wedge.free_rim ? 2
+                                : 3) {}
+  const BoundedWave* begin() const { return waves_.data(); }
+  const BoundedWave* end() const { return waves_.data() + count_; }
+
+ private:
+  std::array<BoundedWave, 3> waves_;
+  std::size_t count_;
+};
+
+/// Places of a path's edges among its interactions.
+class EdgePlaces {
+ public:
+  explicit EdgePlaces(std::span<const Interaction> interactions) {
+    for (std::size_t i = 0; i < interactions.size(); ++i)
+      if (is_edge(interactions[i])) places_[count_++] = i;
+  }
+  std::size_t operator[](std::size_t edge) const { return places_[edge]; }
+
+ private:
+  std::array<std::size_t, max_edges> places_;
+  std::size_t count_ = 0;
+};
+
 /// Unit vectors along and across the edge's cone for a wave of direction k: φ̂ = ê × k/|ê × k|, β̂ = φ̂ × k. Turned about
 /// the edge as k is.
 struct ConeFrame {

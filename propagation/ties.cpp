@@ -19,20 +19,16 @@ struct Tie {
 /// Calls act(position of the edge, face in its place or no_interaction, lit) for each tie of a path, until it is false.
 template <typename Act>
 void each_tie(const Scene& scene, const Plan& plan, double hair, const Arrival& arrival, const Act& act) {
-  std::size_t position = 0;
-  for (std::size_t e = 0; e < arrival.geometry.edge_count; ++e, ++position) {
-    while (!is_edge(arrival.interactions[position])) ++position;
+  const EdgePlaces places(arrival.interactions);
+  for (std::size_t e = 0; e < arrival.geometry.edge_count; ++e) {
     const EdgePassage& passage = arrival.geometry.edges[e];
     if (!passage.inside) continue;
     const Wedge& wedge = scene.wedges.wedges[passage.wedge];
     // A displacement h at the edge across the ray turns both ways, by h/ρ' and h/ρ.
     const double turn = hair / passage.sin_beta * (1 / passage.s_in + 1 / passage.s_out);
-    const std::pair<Boundary, Interaction> bounded[3] = {
-        {Boundary::incident, no_interaction}, {Boundary::face0, wedge.patch0}, {Boundary::facen, wedge.patchn}};
-    const std::size_t kinds = !plan.request.reflection ? 1 : wedge.free_rim ? 2 : 3;
-    for (std::size_t kind = 0; kind < kinds; ++kind) {
-      const double epsilon = beyond_boundary(wedge, passage, bounded[kind].first);
-      if (std::abs(epsilon) < turn && !act(position, bounded[kind].second, !is_dark(wedge, passage, epsilon))) return;
+    for (const auto& [boundary, face] : BoundedWaves(wedge, plan.request.reflection)) {
+      const double epsilon = beyond_boundary(wedge, passage, boundary);
+      if (std::abs(epsilon) < turn && !act(places[e], face, !is_dark(wedge, passage, epsilon))) return;
     }
   }
 }
