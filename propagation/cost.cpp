@@ -67,7 +67,8 @@ SampleCost run_sample(const Scene& scene, const Tracer& tracer, const Plan& plan
 Prediction scaled_up(const SampleCost& sample) {
   const double f = sample.beam_share, c = sample.cell_share;
   const RunFigures& run = sample.figures;
-  const double more_growth = sample.depth == 1 ? 0.2 : 0.08, more_paths = sample.depth == 1 ? 0.35 : 0.235;
+  const double more_growth = sample.depth == 1 ? 0.2 : sample.depth == 2 ? 0.07 : 0.02;
+  const double more_paths = sample.depth == 1 ? 0.3 : sample.depth == 2 ? 0.2 : 0.15;
   const double beams = 1 / f, growth = std::pow(c, -0.6) * std::pow(f, -0.4 - more_growth),
                paths = std::pow(f, -more_paths) / c;
   Prediction whole;

@@ -18,17 +18,16 @@ namespace grimaldi {
 /// A first sample has about a thousandth of the beams (30,000 at the most) and cells. A longer run gets a second one,
 /// of 2 % of the run's time but at most 4 s. With the share f of the beams and c of the cells:
 /// * what the transmitter sees costs the same, the beams' walk 1/f of the sample's, growing c^−0.6 f^−(0.4 + g),
-/// evaluating c^−1 f^−e; g = 0.08, e = 0.235,
-///   and 0.2, 0.35 for depth 1, since fewer beams find fewer paths to each cell. These powers are measured (demo city,
-///   Munich, Etoile and a grid of blocks; UTD and FSD; depth 1 to 3; 1e5 to 1e7 rays), not derived.
+///   evaluating c^−1 f^−e; g = 0.2, 0.07, 0.02 and e = 0.3, 0.2, 0.15 for depth 1, 2, 3 and more: the more sequences
+///   are asked by name, the less the paths to a cell depend on the beams. These powers are measured, not derived.
 /// * the memory is what the program had before, the map, and twice (vectors grow) what seeds, sequences and pairs take,
 ///   their counts scaled likewise.
 /// Wall time is processor time by the ratio of the two in the sample: as busy as the machine was then.
 ///
-/// Error: predicted over true, in the 18 runs that the powers are from, before pairs were asked by name
-/// (`discover_pairs`): processor time 0.76 to 1.22, memory 0.70 to 1.15; in three others (transmitter, frequency, size
-/// of the cells, sound) 0.97 to 1.1. With pairs, Munich at depth 3, 1.35e5 and 1e6 rays: 1.2 and 1.2 to 1.3. Scenes of
-/// other kinds were not asked. The counts behind it are functions of (scene, plan, seed), the times are the clock's.
+/// Error: predicted over true processor time 0.83 to 1.2 in the nine runs that the powers are from (Munich, Etoile, a
+/// grid of 16 demo cities; depth 1 to 3, UTD, 1e6 rays), 1.1 in two others (1.3e5 rays; `auto`); memory 0.75 to 2.3,
+/// most of it too much. Scenes of other kinds were not asked. The counts behind it are functions of (scene, plan,
+/// seed), the times are the clock's.
 std::optional<Prediction> predict_cost(const Scene& scene, const Tracer& tracer, const Plan& plan, double least_seconds,
                                        const std::atomic<bool>* stop = nullptr);
 
