@@ -6,6 +6,7 @@
 
 #include "core/constants.h"
 #include "core/contract.h"
+#include "core/sine_cosine.h"
 #include "propagation/fade.h"
 
 namespace grimaldi {
@@ -256,7 +257,7 @@ double CompositeSum::over_a_square(std::span<const Arrival> arrivals, std::size_
     const PathGeometry& g = arrivals[a].geometry;
     return normalized(g.points[g.count - 1] - g.points[g.count - 2]);
   };
-  const auto sinc = [](double x) { return std::abs(x) < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x; };
+  const auto sinc = [](double x) { return std::abs(x) < 1e-4 ? 1 - x * x / 6 : sine_cosine(x).sine / x; };
   const double scale = 0.5 * plan_->wavenumber[band] * extent;
   double cross_terms = 0;
   place_.resize(node_count_);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/constants.h"
+#include "core/sine_cosine.h"
 #include "propagation/face_reflection.h"
 #include "propagation/laws/free_space_diffraction.h"
 #include "propagation/laws/utd.h"
@@ -40,7 +41,8 @@ Dyadic mixed(double share, const Dyadic& a, const Dyadic& b) {
 /// For a way of that azimuth from the face: ±(π/2 − image_angle).
 Turn image_turn(double exterior_angle, double azimuth) {
   const double to_face = image_angle(exterior_angle, azimuth), side = azimuth <= exterior_angle - azimuth ? 1 : -1;
-  return {side * (0.5 * pi - to_face), side * std::cos(to_face), std::sin(to_face)};
+  const SineCosine turn = sine_cosine(to_face);
+  return {side * (0.5 * pi - to_face), side * turn.cosine, turn.sine};
 }
 
 /// The turn of a way by which the image goes where the `other` way is nearer to a face: that of the mirror's way, or,
@@ -49,7 +51,8 @@ Turn turn_with(const Turn& turn, const Turn& other) {
   if (std::abs(turn.angle) >= std::abs(other.angle)) return turn;
   if (turn.angle * other.angle <= 0) return -other;
   const double angle = 2 * turn.angle - other.angle;
-  return {angle, std::sin(angle), std::cos(angle)};
+  const SineCosine turned = sine_cosine(angle);
+  return {angle, turned.sine, turned.cosine};
 }
 
 /// Normal of the mirror whose image a wave of direction k to an edge has at that turn. `side` 1: the face at azimuth 0,

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/constants.h"
+#include "core/sine_cosine.h"
 #include "propagation/antenna.h"
 #include "propagation/chain_steps.h"
 #include "propagation/edge_faces.h"
@@ -150,7 +151,7 @@ double power_bound(const Scene& scene, const Plan& plan, std::span<const Interac
     const Wedge& wedge = scene.wedges.wedges[passage.wedge];
     const double size = passage.sin_beta * std::sqrt(2 * wavenumber * chain.distance[i]);
     const auto bound = [&](double epsilon) {
-      return double_edge_bound(size * std::sin(0.5 * std::min(std::abs(epsilon), pi)), share);
+      return double_edge_bound(size * sine_cosine(0.5 * std::min(std::abs(epsilon), pi)).sine, share);
     };
     double sum = bound(beyond_boundary(wedge, passage, Boundary::incident));
     if (faces_count(plan))
@@ -184,7 +185,7 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
   EdgeChain chain;
   chain.amplitude = 1 / geometry.length;
   if (edges > 0) chain = edge_chain(scene, interactions, geometry);
-  ChainTerms terms;
+  thread_local ChainTerms terms;  // too much to set to zero for each path
   for (std::size_t band = 0; band < plan.bands(); ++band) {
     const double wavenumber = plan.wavenumber[band], wavelength = 2 * pi / wavenumber;
     for (std::size_t e = 0; e < edges; ++e) {
@@ -199,8 +200,9 @@ void path_field(const Scene& scene, const Plan& plan, const Transmitter& transmi
                                  ? carried(path, start, terms, RowSteps(chain, terms, edges))
                                  : carried(path, start, terms, MomentSteps(chain, terms, edges));
     const double scale = radio ? wavelength / (4 * pi) : 1 / std::sqrt(4 * pi);
-    const Complex carrier = std::polar(chain.amplitude * scale * std::exp(-plan.attenuation[band] * geometry.length),
-                                       -std::remainder(wavenumber * geometry.length, 2 * pi));
+    const SineCosine phase = sine_cosine(-std::remainder(wavenumber * geometry.length, 2 * pi));
+    const double spread = chain.amplitude * scale * std::exp(-plan.attenuation[band] * geometry.length);
+    const Complex carrier = spread * Complex(phase.cosine, phase.sine);
     if (radio)
       field[band] = {carrier * dot(wave, receiver.theta), carrier * dot(wave, receiver.phi)};
     else

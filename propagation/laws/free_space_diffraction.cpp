@@ -14,7 +14,7 @@ namespace grimaldi {
 double fresnel_parameter(double effective_distance, double wavelength, double sin_beta, double epsilon) {
   GRIMALDI_EXPECT(effective_distance >= 0 && wavelength > 0);
   const double turn = std::min(std::abs(epsilon), pi);
-  return 2 * std::sqrt(2 * effective_distance / wavelength) * sin_beta * std::sin(turn / 2);
+  return 2 * std::sqrt(2 * effective_distance / wavelength) * sin_beta * sine_cosine(turn / 2).sine;
 }
 
 std::complex<double> edge_wave(double v, bool shadow) {
@@ -42,7 +42,8 @@ void edge_waves(std::span<const double> effective_distance, double wavelength, s
 
 std::complex<double> edge_end_wave(double detour, double wavelength, double wavenumber, bool inside) {
   const double v = 2 * std::sqrt(std::max(detour, 0.0) / wavelength);
-  return edge_wave(v, !inside) * std::polar(1.0, -wavenumber * detour);
+  const SineCosine turn = sine_cosine(-wavenumber * detour);
+  return edge_wave(v, !inside) * std::complex<double>(turn.cosine, turn.sine);
 }
 
 double edge_end_share(double v, double v_end) {
