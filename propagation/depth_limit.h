@@ -25,6 +25,8 @@ namespace grimaldi {
 /// Inputs: `hair` m; `arrivals` with fields. Those below 1e-6 of their power, all together, are left as they are.
 /// Valid: |error| of what is beyond the depth as that of a product of single edges; two level roofs, perfectly
 /// conducting, paths of depth 6: 0.2 dB for nine points in ten (cases roofs/two/level), 2 dB without it.
+/// Where hundreds of waves of unrelated phases arrive the estimate is one change of phases among many: at 16 street
+/// points of Munich it moves the sum of depth 3 by 1.5 dB in the mean, and no nearer to that of depth 4.
 std::vector<std::complex<double>> left_at_depth(const Scene& scene, const Plan& plan, const Vec3& source,
                                                 const Vec3& point, double hair, std::span<const Arrival> arrivals);
 
