@@ -22,7 +22,7 @@ namespace grimaldi {
 /// `edge_end_share`; over two edges, where a term of the other edge has an argument b below 2, U(b) UV becomes
 /// `end_and_edge_wave` and w that of the arguments that term and end have without the other edge (a fade from 1 on).
 /// Spreading of the whole chain of edges (`edge_chain`). Neighbouring edges: each pair of their terms by the
-/// double-edge wave, faces between them or not; of three and more the couplings of neighbours, chained (`next_step`).
+/// double-edge wave, faces between them or not; of three and more by MomentSteps or RowSteps (`is_row`).
 /// Two edges of one face, along which the wave goes: half of the sum over all pairs, with the face's coefficient for
 /// that way at both edges: over a rigid face the wave counts once, of a soft one what is left is the coupling of the
 /// slopes. A way to or from an edge meets a face by `met_cosines`. Source: the half, Kouyoumjian & Pathak. Air:
