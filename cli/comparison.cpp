@@ -217,7 +217,7 @@ Belief belief(Region region, bool solid) {
   return {
       "utd",
       "Deep behind solid wedges FSD errs by 4 to 25 dB (soft). Over a flat roof UTD errs by 0.1 dB in the median, "
-      "over two roofs by 0.25 dB at one point in ten (paths of depth 6, at receivers), FSD by 1.5 to 4.3 dB (soft) or "
+      "over two roofs by 0.25 dB at one point in ten (paths of depth 6, at receivers), FSD by 1.8 to 4.3 dB (soft) or "
       "0.4 dB (hard)."};
 }
 

@@ -43,7 +43,7 @@ double received_power(const std::array<std::complex<double>, 2>& field, Polarisa
 /// and after the same other interactions, are tied there, each with 1 up to r_F from it and a fade to 0 at 2 r_F. A
 /// wave ties the waves that it belongs to with one another only as far as it has power, itself or in what belongs to
 /// it: 1 from 1/300 of the whole, a fade to 0 at 1/3000: what is so weak may have been left out. What has less than
-/// 1e-6 of it adds its power alone. γ_ab is the product of the weights along the way from a to b over these ties (of
+/// 1e-5 of it adds its power alone. γ_ab is the product of the weights along the way from a to b over these ties (of
 /// several ways the strongest: the maximum spanning tree of the first band): 1 for a wave and an edge on its boundary,
 /// t_a t_b for two edges of one wave, t t' for a direct and a reflected wave that one edge bounds both (near grazing
 /// they are one coherent wave). Products along a tree are a correlation, so power + interference = the mean power of

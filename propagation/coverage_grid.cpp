@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/constants.h"
+#include "core/gauss_legendre.h"
 #include "core/random.h"
 #include "propagation/effort.h"
 
@@ -14,31 +15,6 @@ namespace {
 
 constexpr int raster = 8;  ///< points a side of a crossed cell
 constexpr std::uint32_t sub_point_stream = 3;
-
-struct GaussPoint {
-  double position;  ///< in (−1, 1)
-  double weight;    ///< of an interval of length 2
-};
-
-/// Gauss-Legendre points by Newton on P_n. Source: Abramowitz & Stegun 25.4.29.
-std::vector<GaussPoint> gauss_legendre(int n) {
-  std::vector<GaussPoint> points;
-  for (int i = 0; i < n; ++i) {
-    double x = -std::cos(pi * (i + 0.75) / (n + 0.5)), slope = 1;
-    for (int iteration = 0; iteration < 20; ++iteration) {
-      double p = 1, before = 0;
-      for (int k = 1; k <= n; ++k) {
-        const double next = ((2 * k - 1) * x * p - (k - 1) * before) / k;
-        before = p;
-        p = next;
-      }
-      slope = n * (x * p - before) / (x * x - 1);
-      x -= p / slope;
-    }
-    points.push_back({x, 2 / ((1 - x * x) * slope * slope)});
-  }
-  return points;
-}
 
 /// Where a row of points meets the plan of a triangle's side: x at y, from the lower end, the same for both triangles
 /// of the side.

@@ -62,7 +62,7 @@ std::vector<Complex> left_at_depth(const Scene& scene, const Plan& plan, const V
   for (std::size_t a = 0; a < arrivals.size(); ++a) {
     const Arrival& arrival = arrivals[a];
     if (!is_full(plan, arrival) || received_power(arrival.field[0], Polarisation::both) < negligible * power) continue;
-    each_near_edge(scene, arrival.geometry, longest, [&](std::size_t leg, std::uint32_t wedge) {
+    each_near_edge(scene, arrival.geometry, longest, 2 * full_edge, [&](std::size_t leg, std::uint32_t wedge) {
       longer.assign(arrival.interactions.begin(), arrival.interactions.end());
       longer.insert(longer.begin() + static_cast<std::ptrdiff_t>(leg), edge_interaction(wedge));
       UnfoldedSequence unfolded(scene, source, longer, &plan.small_objects);

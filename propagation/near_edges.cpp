@@ -31,9 +31,9 @@ bool passes_near(const Wedge& wedge, const Vec3& a, const Vec3& b, double straig
 
 }  // namespace
 
-void each_near_edge(const Scene& scene, const PathGeometry& geometry, double wavelength,
+void each_near_edge(const Scene& scene, const PathGeometry& geometry, double wavelength, double v_most,
                     const std::function<void(std::size_t, std::uint32_t)>& act) {
-  const double most = wavelength * transition_end * transition_end / 4;
+  const double most = wavelength * v_most * v_most / 4;
   for (std::size_t leg = 0; leg + 1 < geometry.count; ++leg) {
     const Vec3 &a = geometry.points[leg], &b = geometry.points[leg + 1];
     const double straight = distance(a, b);
@@ -58,7 +58,7 @@ std::vector<std::uint32_t> add_near_edges(const Scene& scene, const Tracer& trac
       continue;
     PathGeometry geometry, child_geometry;
     if (!UnfoldedSequence(scene, source, parent, &plan.small_objects).solve(point, wavelength, geometry)) continue;
-    each_near_edge(scene, geometry, wavelength, [&](std::size_t leg, std::uint32_t w) {
+    each_near_edge(scene, geometry, wavelength, transition_end, [&](std::size_t leg, std::uint32_t w) {
       std::vector<Interaction> child = parent;
       child.insert(child.begin() + static_cast<std::ptrdiff_t>(leg), edge_interaction(w));
       const SequenceHash hash = hash_of(child);

@@ -14,17 +14,17 @@
 
 namespace grimaldi {
 
-/// Calls act(leg, wedge) for each wedge whose detour δ from a leg of a path has v = 2√(δ/λ) < 6: where composites end.
-/// Inputs: wavelength λ, m; the path must not change meanwhile.
-void each_near_edge(const Scene& scene, const PathGeometry& geometry, double wavelength,
+/// Calls act(leg, wedge) for each wedge whose detour δ from a leg of a path has v = 2√(δ/λ) < v_most.
+/// Inputs: wavelength λ, m; v_most > 0; the path must not change meanwhile.
+void each_near_edge(const Scene& scene, const PathGeometry& geometry, double wavelength, double v_most,
                     const std::function<void(std::size_t, std::uint32_t)>& act);
 
 /// Adds to `sequences` those, not among the `known`, that pass an edge beside a free leg of a path to `point`: nothing
 /// blocks that leg, so nothing leads the search there, but the edge's wave is part of the total as long as the leg lies
 /// in its transition region. A map finds them by growing from the cells behind the boundary; a point has no such
 /// neighbours. Returns their numbers. Method: for the paths `arriving` (numbers in `sequences`, at most 64, the first
-/// count) with room for one more edge, every near edge of each leg (`each_near_edge`) at the first band; solved and
-/// asked for visibility; what is found so is searched in its turn.
+/// count) with room for one more edge, every edge within v = 6 of a leg, where composites end (`each_near_edge`), at
+/// the first band; solved and asked for visibility; what is found so is searched in its turn.
 std::vector<std::uint32_t> add_near_edges(const Scene& scene, const Tracer& tracer, const Plan& plan,
                                           std::size_t transmitter, const Vec3& point,
                                           std::span<const std::uint32_t> arriving,

@@ -7,38 +7,18 @@
 
 #include "core/constants.h"
 #include "core/contract.h"
+#include "core/gauss_legendre.h"
 
 namespace grimaldi {
 namespace {
 
 using Complex = std::complex<double>;
 
-struct Rule {
-  std::vector<double> node, weight;  ///< on 0 … 1
-};
-
-/// Gauss-Legendre rule of n nodes: zeros of P_n by Newton.
-Rule legendre_rule(std::size_t n) {
-  Rule rule;
-  for (std::size_t i = 0; i < n; ++i) {
-    double x = std::cos(pi * (double(i) + 0.75) / (double(n) + 0.5)), slope = 1;
-    for (int step = 0; step < 8; ++step) {
-      double before = 1, here = x;
-      for (std::size_t k = 2; k <= n; ++k)
-        before = std::exchange(here, (double(2 * k - 1) * x * here - double(k - 1) * before) / double(k));
-      slope = double(n) * (x * here - before) / (x * x - 1);
-      x -= here / slope;
-    }
-    rule.node.push_back(0.5 * (1 - x));
-    rule.weight.push_back(1 / ((1 - x * x) * slope * slope));
-  }
-  return rule;
-}
-
-const Rule& rule_of(std::size_t n) {
-  static const std::vector<Rule> rules = [] {
-    std::vector<Rule> made(most_row_nodes + 1);
-    for (std::size_t i = 2; i <= most_row_nodes; ++i) made[i] = legendre_rule(i);
+/// Computed once for all rules.
+const std::vector<GaussPoint>& rule_of(std::size_t n) {
+  static const std::vector<std::vector<GaussPoint>> rules = [] {
+    std::vector<std::vector<GaussPoint>> made(most_row_nodes + 1);
+    for (std::size_t i = 1; i <= most_row_nodes; ++i) made[i] = gauss_legendre(static_cast<int>(i));
     return made;
   }();
   return rules[n];
@@ -61,11 +41,11 @@ RowAperture row_aperture(double argument, double width) {
   const double extent = extent_of(argument, width);
   RowAperture aperture;
   aperture.count = static_cast<std::size_t>(std::ceil(least_nodes + extent));
-  const Rule& rule = rule_of(aperture.count);
+  const std::vector<GaussPoint>& rule = rule_of(aperture.count);
   const Complex decay = -2 * argument * std::polar(1.0, 0.25 * pi);
   for (std::size_t i = 0; i < aperture.count; ++i) {
-    aperture.place[i] = extent * rule.node[i];
-    aperture.weight[i] = extent * rule.weight[i] / std::sqrt(pi) * std::exp(decay * aperture.place[i]);
+    aperture.place[i] = 0.5 * extent * (1 + rule[i].position);
+    aperture.weight[i] = 0.5 * extent * rule[i].weight / std::sqrt(pi) * std::exp(decay * aperture.place[i]);
   }
   return aperture;
 }

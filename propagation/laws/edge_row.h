@@ -51,8 +51,8 @@ void row_kernel(const RowAperture& from, const RowAperture& to, const RowLink& l
 /// & Immirzi 1962; Vogler, Radio Science 17, 1982, equation 1), each displacement about the bent ray; the contour, own.
 /// Inputs: q_i ≥ 0, N − 1 couplings, the widths of the apertures (for a chain with covariance C and K = C⁻¹: √(C_ii
 /// K_ii)).   Returns: dimensionless.
-/// Valid: row_fits(width) for all. Error: 2e-3 of the wave, in the median 1e-5; on one straight line 2e-4 for up to 8
-/// edges (held by EdgeRow.*).
+/// Valid: row_fits(width) for all. Error: 3e-5 of the wave for 8 edges and legs of which the longest is 50 times the
+/// shortest, 1e-4 where a q is 40 (held by EdgeRow.*).
 std::complex<double> edge_row_wave(std::span<const double> arguments, std::span<const bool> dark,
                                    std::span<const double> couplings, std::span<const double> widths);
 

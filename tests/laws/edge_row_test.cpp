@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -48,6 +49,7 @@ struct Row {
     amplitude = std::sqrt(share);
   }
   std::size_t size() const { return arguments.size(); }
+  bool fits() const { return std::all_of(widths.begin(), widths.end(), row_fits); }
   Complex wave() const { return edge_row_wave(arguments, std::span(dark.get(), size()), couplings, widths); }
 };
 
@@ -55,22 +57,23 @@ Row random_row(std::uint64_t i, std::size_t n) {
   std::vector<double> legs, heights;
   const auto u = uniform4(7, i, n, 0), v = uniform4(7, i, n, 1), h = uniform4(7, i, n, 2);
   for (std::size_t e = 0; e <= n; ++e) legs.push_back(std::pow(10.0, 1 + 2 * (e < 4 ? u[e] : v[e - 4])));
-  for (std::size_t e = 0; e < n; ++e) heights.push_back(6 * h[e] - 3);
+  for (std::size_t e = 0; e < n; ++e) heights.push_back((6 * h[e] - 3) * v[3] * v[3] * v[3]);  // many near grazing
   return {legs, heights};
 }
 
+// The decay e^{-2qs} is resolved by eight nodes at the least: 5e-5 at q = 40.
 TEST(EdgeRow, OneEdge) {
   for (const double q : {0.0, 0.01, 0.3, 1.0, 3.0, 10.0, 40.0}) {
     const Complex one = make_edge_wave(q).wave;
     const bool dark = true;
     const double width = 1;
     const Complex row = edge_row_wave(std::span(&q, 1), std::span(&dark, 1), {}, std::span(&width, 1));
-    EXPECT_LT(std::abs(row - one), 2e-4 * std::abs(one)) << q;
+    EXPECT_LT(std::abs(row - one), 1e-4 * std::abs(one)) << q;
   }
 }
 
-// The closed form; legs of 10 to 1000 wavelengths, tips within 3 of the line. What the nodes leave is counted against
-// the field that there would be without the second edge or ½ U, where the two-edge wave itself passes a null.
+// The closed form; legs of 10 to 1000 wavelengths, tips within 3 of the line, many near it. What the nodes and the tail
+// beyond 3.5 widths (e^{-12}) leave: 2e-6.
 TEST(EdgeRow, TwoEdges) {
   double worst = 0;
   for (std::uint64_t i = 0; i < 2000; ++i) {
@@ -79,30 +82,36 @@ TEST(EdgeRow, TwoEdges) {
         double_edge_wave(row.arguments[0], row.dark[0], row.arguments[1], row.dark[1], row.couplings[0]);
     worst = std::max(worst, std::abs(row.wave() - two) / std::abs(two));
   }
-  EXPECT_LT(worst, 2e-3);
+  EXPECT_LT(worst, 1e-5);
 }
 
 // All tips on the straight line between the ends and equally far apart: |E/E0| = 1/(N + 1) for N of them (Lee 1978).
+// Each edge adds the tail of its aperture: 2e-5 for eight.
 TEST(EdgeRow, GrazingScreens) {
   for (std::size_t n = 1; n <= 8; ++n) {
     const Row row(std::vector<double>(n + 1, 50), std::vector<double>(n, 0));
-    EXPECT_NEAR(row.amplitude * std::abs(row.wave()) * double(n + 1), 1, 2e-4) << n;
+    EXPECT_NEAR(row.amplitude * std::abs(row.wave()) * double(n + 1), 1, 5e-5) << n;
   }
 }
 
 // Where a tip is on the line between its neighbours, its row comes or goes as the row without it does: dark less lit is
-// the wave over the others.
+// the wave over the others. 1e-5 is left, as above.
 TEST(EdgeRow, TheJumpAtABoundaryIsTheRowWithoutThatEdge) {
+  int compared = 0;
+  double worst = 0;
   for (std::uint64_t i = 0; i < 200; ++i)
     for (const std::size_t n : {std::size_t{3}, std::size_t{4}, std::size_t{6}}) {
       const auto u = uniform4(8, i, n, 0), v = uniform4(8, i, n, 1), h = uniform4(8, i, n, 2), g = uniform4(8, i, n, 3);
+      const double scale = std::pow(v[3], 3);
       std::vector<double> legs, heights;
-      for (std::size_t e = 0; e <= n; ++e) legs.push_back(std::pow(10.0, 1 + (e < 4 ? u[e] : v[e - 4])));
-      for (std::size_t e = 0; e < n; ++e) heights.push_back(4 * (e < 4 ? h[e] : g[e - 4]) - 2);
+      for (std::size_t e = 0; e <= n; ++e) legs.push_back(std::pow(10.0, 1 + 1.7 * (e < 4 ? u[e] : v[e - 4])));
+      for (std::size_t e = 0; e < n; ++e) heights.push_back((4 * (e < 4 ? h[e] : g[e - 4]) - 2) * scale);
       const std::size_t middle = 1;
       heights[middle] = (heights[middle - 1] * legs[middle + 1] + heights[middle + 1] * legs[middle]) /
                         (legs[middle] + legs[middle + 1]);
       Row row(legs, heights);
+      if (!row.fits()) continue;
+      ++compared;
       row.arguments[middle] = 0;
       row.dark[middle] = true;
       const Complex dark = row.wave();
@@ -113,9 +122,12 @@ TEST(EdgeRow, TheJumpAtABoundaryIsTheRowWithoutThatEdge) {
       fewer_legs.erase(fewer_legs.begin() + middle + 1);
       fewer.erase(fewer.begin() + middle);
       const Row without(fewer_legs, fewer);
+      if (!without.fits()) continue;
       const Complex expected = without.amplitude * without.wave();
-      EXPECT_LT(std::abs(jump - expected), 1e-3 * std::abs(expected)) << i << ' ' << n;
+      worst = std::max(worst, std::abs(jump - expected) / std::abs(expected));
     }
+  EXPECT_GT(compared, 400);
+  EXPECT_LT(worst, 3e-5);
 }
 
 TEST(EdgeRow, ExchangeOfTheEnds) {
