@@ -7,7 +7,7 @@
 
 namespace grimaldi {
 
-std::vector<GaussPoint> gauss_legendre(int n) {
+std::vector<GaussPoint> gauss_legendre_points(int n) {
   GRIMALDI_EXPECT(n >= 1);
   std::vector<GaussPoint> points;
   for (int i = 0; i < n; ++i) {

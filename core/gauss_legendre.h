@@ -1,5 +1,5 @@
 #pragma once
-// Gauss-Legendre quadrature.
+// Gauss-Legendre quadrature. (The references in validation have a rule of their own.)
 
 #include <vector>
 
@@ -13,6 +13,6 @@ struct GaussPoint {
 /// Points and weights of the rule of n points, exact for polynomials of degree 2n − 1, ascending.
 /// Formula: zeros x of P_n by Newton, weights 2/((1 − x²) P_n'(x)²). Source: Abramowitz & Stegun 25.4.29.
 /// Inputs: n ≥ 1.   Error: 1e-14 of a weight for n ≤ 48 (held by GaussLegendre.*).
-std::vector<GaussPoint> gauss_legendre(int n);
+std::vector<GaussPoint> gauss_legendre_points(int n);
 
 }  // namespace grimaldi

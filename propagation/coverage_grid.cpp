@@ -103,7 +103,7 @@ void add_partly_inside(const GridLayout& grid, std::size_t cell, std::uint64_t i
 }
 
 void add_outdoors(const GridLayout& grid, int n, bool edge, std::vector<SubPoint>& out) {
-  const std::vector<GaussPoint> gauss = gauss_legendre(n);
+  const std::vector<GaussPoint> gauss = gauss_legendre_points(n);
   for (const GaussPoint& v : gauss)
     for (const GaussPoint& u : gauss) {
       const double weight = 0.25 * u.weight * v.weight;

@@ -18,7 +18,7 @@ using Complex = std::complex<double>;
 const std::vector<GaussPoint>& rule_of(std::size_t n) {
   static const std::vector<std::vector<GaussPoint>> rules = [] {
     std::vector<std::vector<GaussPoint>> made(most_row_nodes + 1);
-    for (std::size_t i = 1; i <= most_row_nodes; ++i) made[i] = gauss_legendre(static_cast<int>(i));
+    for (std::size_t i = 1; i <= most_row_nodes; ++i) made[i] = gauss_legendre_points(static_cast<int>(i));
     return made;
   }();
   return rules[n];
