@@ -7,6 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "propagation/edge_visibility.h"
+
 namespace grimaldi {
 
 struct Tracer::Device {
@@ -92,7 +94,11 @@ Tracer::Tracer(const Scene& scene) : device_(std::make_unique<Device>()), scene_
 }
 
 Tracer::~Tracer() = default;
-Tracer::Tracer(Tracer&&) noexcept = default;
+
+const EdgeVisibility& Tracer::edges() const {
+  std::call_once(edges_asked_, [this] { edges_ = std::make_unique<EdgeVisibility>(*scene_, *this); });
+  return *edges_;
+}
 
 Hit Tracer::nearest(const Vec3& origin, const Vec3& direction, std::uint32_t leave0, std::uint32_t leave1) const {
   RTCIntersectContext context;

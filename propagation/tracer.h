@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "core/vector.h"
@@ -16,6 +17,8 @@ struct Hit {
   double distance = 0;  ///< m along the ray; recomputed in double against the plane of the triangle's patch
 };
 
+class EdgeVisibility;
+
 /// Rays in single precision choose the triangle; the point is recomputed in double. Const after construction, any
 /// number of threads may ask. Coordinates are taken relative to the scene's centre before they are rounded, so that a
 /// scene far from its origin loses nothing (5e5 m and 5e6 m alike).
@@ -23,7 +26,8 @@ class Tracer {
  public:
   explicit Tracer(const Scene& scene);
   ~Tracer();
-  Tracer(Tracer&&) noexcept;
+  Tracer(const Tracer&) = delete;
+  Tracer& operator=(const Tracer&) = delete;
 
   /// Nearest triangle from `origin` along the unit vector `direction`. Triangles of the patches `leave0`, `leave1`
   /// nearer than `surface_gap()` are passed over: a ray never hits the face that it leaves.
@@ -41,11 +45,16 @@ class Tracer {
   /// the extent of the scene, 16 ulp of half its diagonal, at least 0.1 mm. m.
   double surface_gap() const { return surface_gap_; }
 
+  /// Which wedges of the scene hide from each other; what is once found out is kept as long as the tracer is.
+  const EdgeVisibility& edges() const;
+
  private:
   struct Device;
   std::unique_ptr<Device> device_;
   const Scene* scene_;
   double surface_gap_;
+  mutable std::once_flag edges_asked_;
+  mutable std::unique_ptr<EdgeVisibility> edges_;
 };
 
 }  // namespace grimaldi

@@ -7,6 +7,7 @@
 
 #include "core/constants.h"
 #include "core/random.h"
+#include "propagation/edge_visibility.h"
 #include "propagation/fermat.h"
 #include "propagation/laws/free_space_diffraction.h"
 
@@ -142,10 +143,13 @@ class Walker::Walk {
   void walk_to_second_edge(const Vec3& origin, std::uint32_t wedge_index, double along, std::uint32_t second,
                            double share, std::uint64_t beam_number) {
     const Wedge& wedge = scene_.wedges.wedges[second];
-    if (const auto beam = over_edge(origin, wedge_index, along, wedge.point(share * wedge.length), beam_number)) {
-      aim(*beam, second, share);
-      follow_pending();
-    }
+    const auto beam = over_edge(origin, wedge_index, along, wedge.point(share * wedge.length), beam_number);
+    if (!beam) return;
+    ++records_->segments;
+    if (!tracer_.edges().visible(wedge_index, along / scene_.wedges.wedges[wedge_index].length, second, share)) return;
+    leave_edge(*beam, second, share * wedge.length, distance(beam->origin, outside(wedge, share * wedge.length)),
+               beams_per_edge);
+    follow_pending();
   }
 
   /// A beam by the patch to the wedge: what leaves the wedge.
