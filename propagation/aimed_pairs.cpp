@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "propagation/edge_visibility.h"
 #include "propagation/fermat.h"
 
 namespace grimaldi {
@@ -45,7 +44,6 @@ std::uint64_t share_asked(const Plan& plan) {
 AimedPairs::AimedPairs(const Scene& scene, const Tracer& tracer, const Plan& plan, std::size_t transmitter,
                        std::uint64_t stride, std::uint64_t& rays)
     : scene_(scene),
-      tracer_(tracer),
       source_(plan.request.transmitters[transmitter].position),
       second_edges_(most_edges(plan.request) > 1),
       rounds_(rounds_of(plan)),
@@ -71,7 +69,6 @@ void AimedPairs::walk_edge(std::size_t number, Walker& walker) const {
   const EndView::Edge& edge = view_.edges()[number];
   const Wedge& wedge = scene_.wedges.wedges[edge.wedge];
   const bool faces = !view_.mirrors().empty();
-  const EdgeVisibility& visibility = tracer_.edges();
   // Where the shortest way from the transmitter to `target` passes the edge, if the transmitter sees that place and the
   // target may.
   const auto along_to = [&](const Vec3& target) {
@@ -95,12 +92,13 @@ void AimedPairs::walk_edge(std::size_t number, Walker& walker) const {
     }
     const std::uint64_t wedges = second_edges_ ? scene_.wedges.wedges.size() : 0;
     for (std::uint64_t w = first_asked(row, wedges, stride_); w < wedges; w += stride_) {
-      const auto number2 = static_cast<std::uint32_t>(w);
-      if (w == edge.wedge || visibility.known_hidden(edge.wedge, number2)) continue;
+      if (w == edge.wedge) continue;
       const Wedge& second = scene_.wedges.wedges[w];
       const double share = share_of(round);
       const double along = along_to(second.point(share * second.length));
-      if (along > 0) walker.walk_to_second_edge(source_, edge.wedge, along, number2, share, name | 1u << 31 | w);
+      if (along > 0)
+        walker.walk_to_second_edge(source_, edge.wedge, along, static_cast<std::uint32_t>(w), share,
+                                   name | 1u << 31 | w);
     }
   }
 }

@@ -41,7 +41,6 @@ class AimedPairs {
   void walk_mirror(std::size_t number, Walker& walker) const;
 
   const Scene& scene_;
-  const Tracer& tracer_;
   const Vec3 source_;
   const bool second_edges_;
   const std::uint64_t rounds_, stride_;

@@ -145,7 +145,7 @@ class Walker::Walk {
     const Wedge& wedge = scene_.wedges.wedges[second];
     const auto beam = over_edge(origin, wedge_index, along, wedge.point(share * wedge.length), beam_number);
     if (!beam) return;
-    ++records_->segments;
+    ++records_->segments;  // whether it takes a ray or not: counts do not depend on what is known
     if (!tracer_.edges().visible(wedge_index, along / scene_.wedges.wedges[wedge_index].length, second, share)) return;
     leave_edge(*beam, second, share * wedge.length, distance(beam->origin, outside(wedge, share * wedge.length)),
                beams_per_edge);
