@@ -24,9 +24,9 @@ namespace grimaldi {
 ///   their counts scaled likewise.
 /// Wall time is processor time by the ratio of the two in the sample: as busy as the machine was then.
 ///
-/// Error: predicted over true processor time 0.83 to 1.2 in the nine runs that the powers are from (Munich, Etoile, a
-/// grid of 16 demo cities; depth 1 to 3, UTD, 1e6 rays), 1.1 in two others (1.3e5 rays; `auto`); memory 0.75 to 2.3,
-/// most of it too much. Scenes of other kinds were not asked. The counts behind it are functions of (scene, plan,
+/// Error: predicted over true processor time 0.82 to 1.28 in the nine runs that the powers are from (Munich, Etoile, a
+/// grid of 16 demo cities; depth 1 to 3, UTD, 1e6 rays) and in others (Munich with 1.3e5 rays, the demo city with 1e6
+/// and 4e6; `auto`); memory 0.73 to 2.25, most of it too much. Scenes of other kinds were not asked. The counts behind it are functions of (scene, plan,
 /// seed), the times are the clock's.
 std::optional<Prediction> predict_cost(const Scene& scene, const Tracer& tracer, const Plan& plan, double least_seconds,
                                        const std::atomic<bool>* stop = nullptr);
