@@ -26,8 +26,8 @@ namespace grimaldi {
 ///
 /// Error: predicted over true processor time 0.82 to 1.28 in the nine runs that the powers are from (Munich, Etoile, a
 /// grid of 16 demo cities; depth 1 to 3, UTD, 1e6 rays) and in others (Munich with 1.3e5 rays, the demo city with 1e6
-/// and 4e6; `auto`); memory 0.73 to 2.25, most of it too much. Scenes of other kinds were not asked. The counts behind it are functions of (scene, plan,
-/// seed), the times are the clock's.
+/// and 4e6; `auto`); memory 0.73 to 2.25, most of it too much. Scenes of other kinds were not asked. The counts behind
+/// it are functions of (scene, plan, seed), the times are the clock's.
 std::optional<Prediction> predict_cost(const Scene& scene, const Tracer& tracer, const Plan& plan, double least_seconds,
                                        const std::atomic<bool>* stop = nullptr);
 
